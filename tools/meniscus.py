@@ -62,7 +62,7 @@ def text_of(path):
 
 
 class Body:
-    """A body in one of its references."""
+    """A body in one of its references; of revolution, in the half plane."""
 
     def __init__(self, name, group, settings, dimension):
         self.name = name
@@ -82,7 +82,7 @@ class Body:
 
     @functools.cached_property
     def volume(self):
-        """Of nodal cells [particle]; 2D: area."""
+        """Of nodal cells [particle]; 2D: area, axisymmetric: volume of the ring."""
         return item(self._group, "volume")[()]
 
     @functools.cached_property
@@ -102,6 +102,10 @@ class Body:
 
     @property
     def spacing(self):
+        if self.dimension == 2:
+            x, y = np.moveaxis(self.X[self.cells], 2, 0)
+            area = (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1) / 2
+            return np.sqrt(np.abs(area).sum() / len(self.volume))
         return (self.volume.sum() / len(self.volume)) ** (1 / self.dimension)
 
 
@@ -113,6 +117,9 @@ class Run:
         self.files = [h5py.File(path, "r") for path in result_series(self.folder)]
         self.input = tomllib.loads(item(self.files[0], "meta/input")[()].decode())  # complete, in its units
         self.dimension = self.input["dimension"]
+        self.axisymmetric = self.dimension == "axisymmetric"  # the half plane x >= 0, y along the axis
+        if self.axisymmetric:
+            self.dimension = 2
         if self.dimension not in (2, 3):
             raise ValueError(f"{self.folder}/run.h5 has the dimension {self.dimension}")
         settings = {table["name"]: table for table in self.input["body"]}

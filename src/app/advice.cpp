@@ -50,8 +50,13 @@ RoundDrop round_drop(const Scene<D>& scene, std::size_t number) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<Real>(values.size());
   };
   const Real mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
-  return {ball_radius<D>(volume), own.tension->gamma, mass / volume, mean(own.viscosity),
-          own.bulk_modulus,       std::sqrt(fastest), D - 1};
+  return {ball_radius(volume, body.space()),
+          own.tension->gamma,
+          mass / volume,
+          mean(own.viscosity),
+          own.bulk_modulus,
+          std::sqrt(fastest),
+          body.space() - 1};
 }
 
 /// Magnitude of the sum of all body forces on a body. Empty if the sum is zero or if a body force
@@ -106,7 +111,8 @@ Real way_ahead(const Scene<D>& scene, const Body<D>& body, const State& state) {
     }
   }
   const Real T = scene.time.end;
-  return (momentum.norm() * T + force.norm() * T * T / 2) / mass / std::pow(body.volume(), 1.0 / D);
+  return (momentum.norm() * T + force.norm() * T * T / 2) / mass /
+         std::pow(body.volume(), 1.0 / body.space());
 }
 
 }  // namespace

@@ -105,8 +105,8 @@ void report_residuals(const Simulation<D>& simulation, RunLog& log) {
             .subspan(static_cast<std::size_t>(body.first), static_cast<std::size_t>(body.size()));
     log.info(fmt::format("body '{}': residual force of the start: {:.2g} of the capillary force",
                          body.name,
-                         capillary_residual<D>(force, tension.gamma, tension.area(state.motion()),
-                                               tension.volume(state.motion()))));
+                         capillary_residual(force, tension.gamma, tension.area(state.motion()),
+                                            tension.volume(state.motion()), body.space())));
   }
 }
 

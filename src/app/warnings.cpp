@@ -2,13 +2,13 @@
 // Warnings during a run about doubtful states.
 #include "app/warnings.hpp"
 
+#include "measure/drop_measures.hpp"
 #include "parallel/ranks.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace meniscus {
 namespace {
@@ -91,16 +91,16 @@ void Warnings<D>::impossible_areas() {
     const std::string kind = "area of " + e.body;
     if (said_.contains(kind)) continue;
     const Real area = e.area->compute(motion), volume = e.volume->compute(motion);
-    const Real least = D == 3 ? std::cbrt(36 * std::numbers::pi * volume * volume)
-                              : std::sqrt(4 * std::numbers::pi * volume);
+    const int space = simulation_->scene().system.bodies.front().space();
+    const Real least = area / isoperimetric_ratio(area, volume, space);
     if (area > (1 - bearable) * least) continue;
     said_.insert(kind);
     say_(fmt::format(
         "t = {:.6g}: body '{}' has the {} {:.4g}, below the least possible {:.4g} for its {}: the "
         "surface is no longer resolved (finer particles, a larger support_factor, or a reference "
         "shape nearer to the present one)",
-        simulation_->state().time, e.body, D == 3 ? "surface area" : "circumference", area, least,
-        D == 3 ? "volume" : "area"));
+        simulation_->state().time, e.body, space == 3 ? "surface area" : "circumference", area,
+        least, space == 3 ? "volume" : "area"));
   }
 }
 

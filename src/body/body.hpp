@@ -24,11 +24,10 @@ namespace meniscus {
 template <int D>
 struct CellRows;
 
-/// Radius of the ball (2D: disk) with this volume (area).
-template <int D>
-Real ball_radius(Real volume) {
-  return D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
-                : std::sqrt(volume / std::numbers::pi);
+/// Radius of the ball (2D: disk) with this volume (area), in a space of this dimension.
+inline Real ball_radius(Real volume, int space_dimension) {
+  return space_dimension == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
+                              : std::sqrt(volume / std::numbers::pi);
 }
 
 /// A body with its grid, nodal cells and masses. In arrays over all particles of a scene, its
@@ -81,6 +80,11 @@ struct Body {
   }
 
   Index size() const { return particles.size(); }
+  /// The dimension of the space in which the body is.
+  int space() const { return space_dimension(geometry.grid); }
+  /// True if the body is of revolution and particle A on its axis. The component 0 of its rows is
+  /// zero, and so it stays there.
+  bool on_axis(Index A) const { return geometry.grid.revolved && at(particles.X(), A)[0] == 0; }
   /// The values of this body in an array over the particles of all bodies.
   template <class T>
   std::span<T> part(std::span<T> all) const {

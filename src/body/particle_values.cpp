@@ -52,17 +52,22 @@ std::shared_ptr<const PointRows<D>> rows_of_all_particles(const Body<D>& body) {
   for (const Index count : length) all.start.push_back(all.start.back() + count);
   all.particle.resize(static_cast<std::size_t>(all.entries()));
   all.value.resize(all.particle.size());
+  all.folded = own.folded;
+  if (own.folded) all.odd_value.resize(all.particle.size());
   for (int rank = 0; rank < ranks().size(); ++rank) {
     const Offset first = at(all.start, body.division.first_row(body.size(), rank)),
                  count = at(all.start, body.division.first_row(body.size(), rank + 1)) - first;
-    if (rank == ranks().rank()) {
+    if (rank == ranks().rank())
       std::copy_n(own.particle.begin(), count, all.particle.begin() + first);
-      std::copy_n(own.value.begin(), count, all.value.begin() + first);
-    }
     ranks().hand_out(rank, all.particle.data() + first,
                      static_cast<std::size_t>(count) * sizeof(Index));
-    ranks().hand_out(rank, all.value.data() + first,
-                     static_cast<std::size_t>(count) * sizeof(Real));
+    for (auto array : {&PointRows<D>::value, &PointRows<D>::odd_value}) {
+      if ((all.*array).empty()) continue;
+      if (rank == ranks().rank())
+        std::copy_n((own.*array).begin(), count, (all.*array).begin() + first);
+      ranks().hand_out(rank, (all.*array).data() + first,
+                       static_cast<std::size_t>(count) * sizeof(Real));
+    }
   }
   return rows;
 }

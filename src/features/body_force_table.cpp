@@ -10,6 +10,7 @@ namespace {
 
 template <int D>
 struct BodyForce final : Load<D> {
+  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       D == 3 ? "body = \"drop\"\nacceleration = [\"0.1*x*cos(t)\", 0, -1]\n"
              : "body = \"drop\"\nacceleration = [\"0.1*x*cos(t)\", -1]\n";
@@ -23,8 +24,12 @@ struct BodyForce final : Load<D> {
                             "for each component")};
   }
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
-    require_body(block, bodies, body);
+    const BodyPlan<D>* on = require_body(block, bodies, body);
+    if (on && on->geometry.grid.revolved && !is_zero(acceleration.front()))
+      block.problem("acceleration",
+                    "acts across the axis of revolution; allowed is 0 for its component 0");
   }
+  static bool is_zero(const Expression& a) { return a.constant() && a({0, 0, 0}) == 0; }
   void build(Assembly<D>& assembly) const override {
     const Body<D>& on = assembly.body(body);
     const bool one_for_all = std::none_of(acceleration.begin(), acceleration.end(),

@@ -51,25 +51,34 @@ Eigen::Vector3d displacement_of(const ConstraintRows& rows, Index place,
   return sum;
 }
 
-/// Mean displacement of all places, weighted by their areas.
+/// Mean displacement of all places, weighted by their areas; with `component`, of those whose rows
+/// are along it.
 Eigen::Vector3d mean_displacement(const ConstraintRows& rows, const std::vector<Real>& area,
-                                  std::span<const NodalVector> u) {
+                                  std::span<const NodalVector> u, int component) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Real total = 0;
   for (Index k = 0; k < rows.places(); ++k) {
+    if (component >= 0 && at(rows.rows, k).direction[component] == 0) continue;
     sum += at(area, k) * displacement_of(rows, k, u);
     total += at(area, k);
   }
   return sum / total;
 }
 
+/// Rows of the face cells of a face, with the number of the face cell of each place.
+struct FaceRows {
+  ConstraintRows rows;
+  std::vector<Index> cell;
+};
+
 /// Constraint that prescribes the mean displacement of each face cell.
 template <int D>
 class HeldFace final : public Constraint {
  public:
-  HeldFace(std::string called, std::string stands, ConstraintRows its_rows,
-           const FaceCells<D>& cells, Grip<D> grip, bool from_start, Real moment)
-      : Constraint(std::move(called), std::move(stands), std::move(its_rows)),
+  HeldFace(std::string called, std::string stands, FaceRows its_rows, const FaceCells<D>& cells,
+           Grip<D> grip, bool from_start, Real moment)
+      : Constraint(std::move(called), std::move(stands), std::move(its_rows.rows)),
+        cell_(std::move(its_rows.cell)),
         grip_(std::move(grip)),
         displacement_(cells, grip_.displacement),
         from_start_(from_start),
@@ -98,7 +107,7 @@ class HeldFace final : public Constraint {
       Eigen::Vector3d u = Eigen::Vector3d::Map(first_.data() + std::ptrdiff_t{3} * row.place);
       const Eigen::Vector3d from = at(rows.X, row.place) + u;
       if (!grip_.displacement.empty())
-        for (int i = 0; i < D; ++i) u[i] += fraction * at(mean, row.place * D + i);
+        for (int i = 0; i < D; ++i) u[i] += fraction * at(mean, at(cell_, row.place) * D + i);
       // A rotation is affine, so its mean over a cell is its value at the mean position.
       if (turns) u += grip_.turned(from, time);
       g[r] = row.direction.dot(u);
@@ -110,6 +119,7 @@ class HeldFace final : public Constraint {
   Real moment() const override { return moment_; }
 
  private:
+  std::vector<Index> cell_;
   Grip<D> grip_;
   FaceMeans<D> displacement_;
   bool from_start_, begun_ = false;
@@ -180,6 +190,7 @@ struct ReactionSums {
 
 template <int D>
 struct Held final : Load<D> {
+  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       D == 3 ? "body = \"drop\"\nwhere = \"z < -0.9\"\ndisplacement = [0, 0, \"0.01*sin(t)\"]\n"
              : "body = \"drop\"\nwhere = \"y < -0.9\"\ndisplacement = [0, \"0.01*sin(t)\"]\n";
@@ -250,6 +261,7 @@ struct Held final : Load<D> {
       block.problem("angle", "depends on the place; allowed is a formula of t");
     if (D == 2 && (axis[0] != 0 || axis[1] != 0))
       block.problem("axis", "is across the plane in 2D; allowed is [0, 0, 1]");
+    if (are_revolved(bodies)) check_revolved(block);
     if (Eigen::Vector3d::Map(axis.data()).norm() == 0)
       block.problem("axis", "has no direction; allowed is any but zero");
   }
@@ -260,14 +272,16 @@ struct Held final : Load<D> {
     const FaceCells<D> cells = face.cells(this->place, body);
     if (!force.empty()) return pull(assembly, body, cells);
     constexpr Real short_time = 1e-4;
+    FaceRows rows = rows_of(cells, body);
+    const std::vector<Index> cell = rows.cell;
     auto held = std::make_unique<HeldFace<D>>("held face '" + label() + "'", this->place,
-                                              rows_of(cells, body), cells, grip(), from == "start",
+                                              std::move(rows), cells, grip(), from == "start",
                                               short_time * assembly.end_time());
     note(assembly, *held, cells, body.name);
     if (displacement.empty() && !angle && from == "reference")
       for (const auto& row : held->rows.rows)
-        assembly.set_held(face.body, at(cells.cell, row.place), row.direction);
-    measure(assembly, *held, cells);
+        assembly.set_held(face.body, at(cells.cell, at(cell, row.place)), row.direction);
+    measure(assembly, *held, cells, cell);
     assembly.keep_reference(face.body, "its [[held]] knows the faces of its shape only");
     assembly.add(std::move(held));
   }
@@ -276,6 +290,16 @@ struct Held final : Load<D> {
   bool has_component(int i) const {
     return components.empty() ||
            std::count(components.begin(), components.end(), std::string(1, "xyz"[i])) > 0;
+  }
+  static bool are_revolved(const BodyPlans<D>& bodies) {
+    return !bodies.empty() && bodies.front().geometry.grid.revolved;
+  }
+  void check_revolved(const Block& block) const {
+    if (angle)
+      block.problem("angle", "turns the face out of a body of revolution; allowed is displacement");
+    if (!force.empty() && components != std::vector<std::string>{"y"})
+      block.problem("components",
+                    "a face of a body of revolution is pulled along its axis; allowed is [\"y\"]");
   }
   void check_force(const Block& block, bool normal) const {
     for (const char* key : {"displacement", "angle", "from"})
@@ -290,7 +314,7 @@ struct Held final : Load<D> {
   /// Adds the constraint of a face that moves as one, and the force as an even dead traction.
   void pull(Assembly<D>& assembly, const Body<D>& body, const FaceCells<D>& cells) const {
     auto held = std::make_unique<FaceAsOne>("held face '" + label() + "'", this->place,
-                                            differences_of(rows_of(cells, body)));
+                                            differences_of(rows_of(cells, body).rows));
     note(assembly, *held, cells, body.name);
     assembly.keep_reference(face.body, "its [[held]] knows the faces of its shape only");
     if (held->rows.size() > 0) assembly.add(std::move(held));
@@ -298,10 +322,9 @@ struct Held final : Load<D> {
   }
   static void note(Assembly<D>& assembly, const Constraint& held, const FaceCells<D>& cells,
                    const std::string& body) {
-    assembly.note(fmt::format("{}: {} nodal cells of body '{}', {:.4g} {}, {} multipliers",
-                              held.name, cells.size(), body, cells.total_area(),
-                              assembly.units().symbol(D == 3 ? dimension::area : dimension::length),
-                              held.rows.size()));
+    assembly.note(fmt::format(
+        "{}: {} nodal cells of body '{}', {:.4g} {}, {} multipliers", held.name, cells.size(), body,
+        cells.total_area(), assembly.units().symbol(of_sum(dimension::area, D)), held.rows.size()));
   }
   Grip<D> grip() const {
     Grip<D> grip{displacement, angle.value_or(Expression(0)),
@@ -309,12 +332,16 @@ struct Held final : Load<D> {
                  spatial<D>(Vec<D>::Map(centre.data())), ramp};
     return grip;
   }
-  ConstraintRows rows_of(const FaceCells<D>& cells, const Body<D>& body) const {
-    ConstraintRows rows;
+  FaceRows rows_of(const FaceCells<D>& cells, const Body<D>& body) const {
+    if constexpr (D == 2)
+      if (body.geometry.grid.revolved) return folded_rows_of(cells, body);
+    FaceRows of_face;
+    ConstraintRows& rows = of_face.rows;
     rows.start = cells.mean.start;
     rows.weight.assign(cells.mean.value.begin(), cells.mean.value.end());
     for (const Index A : cells.mean.particle) rows.particle.push_back(body.first + A);
     for (Index k = 0; k < cells.size(); ++k) {
+      of_face.cell.push_back(k);
       rows.X.push_back(spatial<D>(at(cells.centre, k)));
       if (!components.empty() && components.front() == "normal") {
         rows.rows.push_back({k, spatial<D>(at(cells.normal, k)).normalized()});
@@ -323,24 +350,63 @@ struct Held final : Load<D> {
       for (int i = 0; i < D; ++i)
         if (has_component(i)) rows.rows.push_back({k, Eigen::Vector3d::Unit(i)});
     }
-    return rows;
+    return of_face;
   }
-  void measure(Assembly<D>& assembly, const Constraint& held, const FaceCells<D>& cells) const {
+  /// The rows of a body of revolution. The components of a face cell have weights of their own, and
+  /// so each is a place. On the axis, there is no component across it.
+  FaceRows folded_rows_of(const FaceCells<D>& cells, const Body<D>& body) const {
+    const bool normal = !components.empty() && components.front() == "normal";
+    const PointRows<D>& mean = cells.mean;
+    FaceRows of_face;
+    ConstraintRows& rows = of_face.rows;
+    const auto add = [&](Index k, const UnsetVector<Real>& weight,
+                         const Eigen::Vector3d& direction) {
+      for (Offset e = at(mean.start, k); e < at(mean.start, k + 1); ++e) {
+        rows.particle.push_back(body.first + at(mean.particle, e));
+        rows.weight.push_back(at(weight, e));
+      }
+      rows.start.push_back(static_cast<Offset>(rows.weight.size()));
+      rows.rows.push_back({static_cast<Index>(rows.X.size()), direction});
+      rows.X.push_back(spatial<D>(at(cells.centre, k)));
+      of_face.cell.push_back(k);
+    };
+    for (Index k = 0; k < cells.size(); ++k) {
+      const Vec<D> n = at(cells.normal, k).normalized();
+      constexpr Real round_off = 1e-9;
+      const bool along = std::abs(n[0]) < round_off, across = std::abs(n[1]) < round_off;
+      if (normal && !along && !across)
+        throw InputError(
+            fmt::format("{}: the normal is ({:.4g}, {:.4g}) at ({:.4g}, {:.4g}); in a body of "
+                        "revolution normals "
+                        "can be held where they are along x or y; allowed are components of these",
+                        this->place, n[0], n[1], at(cells.centre, k)[0], at(cells.centre, k)[1]));
+      if ((normal ? across : has_component(0)) && !body.on_axis(at(cells.cell, k)))
+        add(k, mean.odd_value, {1, 0, 0});
+      if (normal ? along : has_component(1)) add(k, mean.value, {0, 1, 0});
+    }
+    return of_face;
+  }
+  /// `cell` has the number of the face cell of each place.
+  void measure(Assembly<D>& assembly, const Constraint& held, const FaceCells<D>& cells,
+               const std::vector<Index>& cell) const {
+    const bool revolved = assembly.body(face.body).geometry.grid.revolved;
+    std::vector<Real> area;
+    for (const Index k : cell) area.push_back(at(cells.area, k));
     const ReactionSums sums{&held, spatial<D>(Vec<D>::Map(centre.data()))};
     const Dimension of_force = of_sum(dimension::force, D), torque = of_sum(dimension::energy, D);
-    for (int i = 0; i < D; ++i)
+    for (int i = revolved ? 1 : 0; i < D; ++i)
       assembly.measure(label(), {fmt::format("force_{}", "xyz"[i]), of_force,
                                  "force by which the face is held, on the body",
                                  [=](const Motion& motion) { return sums.force(motion)[i]; }});
-    for (int i = D == 3 ? 0 : 2; i < 3; ++i)
+    for (int i = D == 3 ? 0 : 2; i < 3 && !revolved; ++i)
       assembly.measure(label(), {fmt::format("torque_{}", "xyz"[i]), torque,
                                  "torque of these forces about the centre",
                                  [=](const Motion& motion) { return sums.torque(motion)[i]; }});
     for (int i = 0; i < D; ++i)
       assembly.measure(
           label(), {fmt::format("displacement_{}", "xyz"[i]), dimension::length,
-                    "mean over the face", [of = &held, area = cells.area, i](const Motion& motion) {
-                      return mean_displacement(of->rows, area, motion.u)[i];
+                    "mean over the face", [of = &held, area, i, revolved](const Motion& motion) {
+                      return mean_displacement(of->rows, area, motion.u, revolved ? i : -1)[i];
                     }});
     assembly.measure(label(), {"work", of_sum(dimension::energy, D), "work of these forces so far",
                                [=](const Motion& motion) { return sums.work(motion); }});

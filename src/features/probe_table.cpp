@@ -151,6 +151,7 @@ class Inside {
     const Real spacing = mean_spacing(body_.geometry.grid);
     std::vector<Index> near;
     body_.particles.search().within(X, 2 * spacing, near);
+    std::erase_if(near, [&](Index A) { return A >= body_.size(); });  // images beyond the axis
     if (near.empty()) return false;
     Vec<D> inwards = -X;
     for (const Index A : near)
@@ -170,6 +171,7 @@ class Inside {
 
 template <int D>
 struct Probe final : Load<D> {
+  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       D == 3 ? "name = \"tip\"\nbody = \"drop\"\nat = [0.2, 0.3, 0]\n"
              : "name = \"tip\"\nbody = \"drop\"\nat = [0.2, 0.3]\n";

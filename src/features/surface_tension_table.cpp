@@ -49,6 +49,7 @@ Rows<Keys> Keys::rows() {
 
 template <int D>
 struct SurfaceTension final : Load<D>, Keys {
+  static constexpr bool revolves = true;
   static constexpr std::string_view example = "body = \"drop\"\ngamma = 1\n";
   std::optional<typename Load<D>::Identity> identity() const override {
     return {{face.empty() ? "body" : "face", label()}};
@@ -63,6 +64,9 @@ struct SurfaceTension final : Load<D>, Keys {
     if (planned && !face.empty()) FaceKeys{body, face, std::nullopt}.check(block, bodies);
     if (!face.empty() && form != "balanced")
       block.problem("form", fmt::format("is {}, with a face; allowed is balanced", form));
+    if (planned && planned->geometry.grid.revolved && form != "balanced")
+      block.problem("form",
+                    fmt::format("is {}, for a body of revolution; allowed is balanced", form));
     if (planned && form == "curvature" && !planned->geometry.surface->smooth())
       block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
                                         "undefined; allowed are balanced, weak, triangles",
@@ -108,15 +112,17 @@ struct SurfaceTension final : Load<D>, Keys {
           body);
   }
   /// Throws InputError if the body is too soft. Surface tension alone compresses a body with the
-  /// mean pressure (D - 1) gamma area / (D volume) (virial theorem); a body much softer than this
-  /// collapses.
+  /// mean pressure (d - 1) gamma area / (d volume) in d dimensions (virial theorem); a body much
+  /// softer than this collapses.
   void require_stiffness(const Assembly<D>& assembly) const {
     constexpr Real most = 2;
     if (!assembly.initial()) return;
     const Motion motion = assembly.initial()->motion();
     const BodyTension& tension = *assembly.of(body).tension;
+    const int space = assembly.body(body).space();
     const Real area = tension.area(motion), volume = tension.volume(motion),
-               pressure = (D - 1) * gamma * area / (D * volume), K = assembly.of(body).bulk_modulus;
+               pressure = (space - 1) * gamma * area / (space * volume),
+               K = assembly.of(body).bulk_modulus;
     const auto text = [&](Real value, Dimension d) {
       return fmt::format("{:.4g} {}", value, assembly.units().symbol(d));
     };

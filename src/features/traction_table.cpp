@@ -12,6 +12,7 @@ namespace {
 
 template <int D>
 struct Traction final : Load<D> {
+  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       "body = \"drop\"\nwhere = \"y < -0.5\"\npressure = \"0.1*(1 + x)*cos(t)\"\n";
   std::string name;
@@ -53,15 +54,19 @@ struct Traction final : Load<D> {
     face.check(block, bodies);
     if (!force.empty() + !total.empty() + pressure.has_value() != 1)
       block.problem("force", "allowed is one of force, total and pressure");
+    const bool revolved = !bodies.empty() && bodies.front().geometry.grid.revolved;
+    if (revolved && !total.empty() && !(total[0].constant() && total[0]({0, 0, 0}) == 0))
+      block.problem("total",
+                    "acts across the axis of revolution; allowed is 0 for its component 0");
   }
   void prepare(BodyPlans<D>& bodies) const override { face.prepare(bodies); }
   void build(Assembly<D>& assembly) const override {
     const Body<D>& body = assembly.body(face.body);
     FaceCells<D> cells = face.cells(this->place, body);
     const Real factor = total.empty() ? 1 : 1 / cells.total_area();
-    assembly.note(fmt::format(
-        "traction '{}': on {:.4g} {} of body '{}'", label(), cells.total_area(),
-        assembly.units().symbol(D == 3 ? dimension::area : dimension::length), body.name));
+    assembly.note(fmt::format("traction '{}': on {:.4g} {} of body '{}'", label(),
+                              cells.total_area(),
+                              assembly.units().symbol(of_sum(dimension::area, D)), body.name));
     assembly.keep_reference(face.body, "its [[traction]] knows the faces of its shape only");
     assembly.add(pressure ? face_pressure(body, label(), std::move(cells), *pressure, ramp,
                                           assembly.held(face.body))

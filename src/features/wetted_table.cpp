@@ -22,6 +22,7 @@ namespace {
 
 template <int D>
 struct Wetted final : Load<D> {
+  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       "body = \"drop\"\nface = \"flat\"\ncontact_angle = 70\nline_friction = 0.2\n";
   std::string name, body, face;
@@ -74,6 +75,10 @@ struct Wetted final : Load<D> {
       block.problem("axis", "has no direction; allowed is a vector other than zero");
     for (const BodyPlan<D>& planned : bodies) {
       if (planned.settings.name != body || !planned.in_order) continue;
+      if (planned.geometry.grid.revolved && !displacement.empty() &&
+          !(displacement.front().constant() && displacement.front()({0, 0, 0}) == 0))
+        block.problem("displacement",
+                      "is across the axis of revolution; allowed is 0 for its component 0");
       const std::vector<Vec<D>> X = points_of_face(planned.geometry);
       if (!X.empty() && !wall_through<D>(X, direction()))
         block.problem(
@@ -145,12 +150,17 @@ struct Wetted final : Load<D> {
       if (geometry.surface->face_name(facet.patch) == face)
         for (int a = 0; a < PatchFunctions<D>::nodes; ++a)
           X.push_back(surface_point<D>(geometry, facet, patch_node<D>(a)));
+    // Only a wall of revolution goes through the images beyond the axis, too.
+    for (std::size_t q = 0, given = X.size(); geometry.grid.revolved && q < given; ++q) {
+      X.push_back(X[q]);
+      X.back()[0] = -X.back()[0];
+    }
     return X;
   }
   /// Stiff beside the pressure of the drop over its size, and soft beside the fluid.
   static Real stiffness_of_hold(const Body<D>& on, Real gamma) {
     constexpr Real relative = 100;
-    const Real R = ball_radius<D>(on.volume());
+    const Real R = ball_radius(on.volume(), on.space());
     return relative * gamma / (R * R);
   }
 };

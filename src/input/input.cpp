@@ -111,7 +111,8 @@ std::shared_ptr<Block::Node> Block::Node::child(std::string_view key, bool in_ar
 }
 
 input_values::Number Block::Node::number(Dimension dimension, const Range& range) const {
-  return {document->units, dimension, range, document->constants, document->in_plane};
+  return {document->units, document->units.settled(dimension), range, document->constants,
+          document->in_plane};
 }
 
 template <class T, class Convert>
@@ -315,6 +316,12 @@ Block Block::table_or_defaults(std::string_view key) const {
   const auto node = node_->child(key, false, joined(path(), key), nullptr, node_->place);
   node->quiet = node_->quiet || has(key);
   return Block(node);
+}
+
+bool Block::is_text(std::string_view key) const {
+  const Entry* entry = node_->ask(key);
+  const auto* text = entry != nullptr ? std::get_if<std::string>(&entry->value.data) : nullptr;
+  return text != nullptr && !node_->document->constants.in(*text);
 }
 
 bool Block::is_array(std::string_view key) const {

@@ -91,6 +91,8 @@ class Block {
   std::optional<Block> table(std::string_view key, bool required = false) const;
   /// The table `key`. If it is absent, an empty table, in which every key has its default.
   Block table_or_defaults(std::string_view key) const;
+  /// Whether the value of the key is a text that is no formula of constants.
+  bool is_text(std::string_view key) const;
   /// Whether the value of the key is an array, such as tables `[[key]]`.
   bool is_array(std::string_view key) const;
   /// The array of tables `[[key]]`; empty if absent.

@@ -133,7 +133,9 @@ SceneInput SceneInput::from_text(std::string_view toml, std::string name,
   if (constants) constants->node_->read_constants();
   if (functions) functions->node_->check_functions();
   if (const scene_tree::Entry* dimension = node->table->find("dimension")) try {
+      if (input.root_.is_text("dimension")) document->units.take_whole_bodies();
       document->in_plane =
+          input.root_.is_text("dimension") ||
           input_values::integer(dimension->value, {2, 3}, document->constants) == 2;
     } catch (const InputError&) {  // who reads it notes that
     }

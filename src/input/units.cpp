@@ -109,6 +109,7 @@ Real UnitSystem::factor(Dimension d) const {
 }
 
 Real UnitSystem::quantity(std::string_view text, Dimension expected) const {
+  expected = settled(expected);
   const auto [digits, exponent, unit] = read_quantity(text);
   if (expected == dimension::degrees && unit.dimension == dimension::none)
     return decimal(digits, exponent + unit.tens) * (unit.factor / std::pow(degree, unit.angle));
@@ -124,6 +125,7 @@ Real UnitSystem::quantity(std::string_view text, Dimension expected) const {
 }
 
 std::string UnitSystem::symbol(Dimension d) const {
+  d = settled(d);
   static constexpr std::pair<Dimension, std::string_view> derived[] = {
       {dimension::pressure, "Pa"}, {dimension::viscosity, "Pa s"}, {dimension::tension, "N/m"},
       {dimension::force, "N"},     {dimension::energy, "J"},       {dimension::power, "W"}};
@@ -135,6 +137,7 @@ std::string UnitSystem::symbol(Dimension d) const {
 }
 
 Real UnitSystem::in_si(Dimension d) const {
+  d = settled(d);
   return decimal("1", tens(d)) * factor(d);
 }
 

@@ -9,10 +9,13 @@
 
 namespace meniscus {
 
-/// Exponents of length, time and mass. `degrees` marks an angle whose number is in degrees.
+/// Exponents of length, time and mass. `degrees` marks an angle whose number is in degrees. `depth`
+/// is the exponent of a length that a sum over bodies in the plane lacks, since it is per unit of
+/// depth; a UnitSystem of whole bodies ignores it.
 struct Dimension {
   int length = 0, time = 0, mass = 0;
   bool degrees = false;
+  int depth = 0;
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
@@ -25,7 +28,7 @@ inline constexpr Dimension none{}, length{1, 0, 0}, area{2, 0, 0}, volume{3, 0, 
 
 /// The dimension of a sum over bodies (mass, force, energy): in 2D it is per unit of depth.
 constexpr Dimension of_sum(Dimension d, int space_dimension) {
-  if (space_dimension == 2) --d.length;
+  if (space_dimension == 2) --d.depth;
   return d;
 }
 
@@ -42,6 +45,9 @@ class UnitSystem {
  public:
   /// Throws InputError (without a place) that names the known units.
   explicit UnitSystem(std::string_view name = "SI");
+  /// From now on sums over bodies in the plane are those of whole bodies, of revolution.
+  void take_whole_bodies() { whole_ = true; }
+  bool of_whole_bodies() const { return whole_; }
 
   /// The number of `text`, e.g. "72.8 mN/m" or "2.2 GPa", in this system. Powers of ten are moved
   /// into the decimal exponent, so "72.8 mN/m" is exactly the double 0.0728 in SI. Angles ("2 rad",
@@ -51,6 +57,13 @@ class UnitSystem {
 
   /// The unit of a dimension in this system: "Pa" or "ag/(nm ps^2)"; "1" for numbers without unit.
   std::string symbol(Dimension dimension) const;
+
+  /// The dimension with its depth as lengths; without depth, for whole bodies.
+  Dimension settled(Dimension dimension) const {
+    if (!whole_) dimension.length += dimension.depth;
+    dimension.depth = 0;
+    return dimension;
+  }
 
   const std::string& name() const { return name_; }
   /// The size in SI of one unit of `dimension` of this system.
@@ -67,6 +80,7 @@ class UnitSystem {
   Real factor(Dimension dimension) const;
 
   std::string name_;
+  bool whole_ = false;
   Base length_, time_, mass_;
 };
 

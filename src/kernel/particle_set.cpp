@@ -59,13 +59,26 @@ auto ParticleSet<D>::press(const Mat<D>& stretch, std::span<const Vec<D>> X)
 }
 
 template <int D>
-ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule,
+ParticleCloud<D>::ParticleCloud(std::vector<Vec<D>> particles, bool is_mirrored)
+    : X(std::move(particles)), count(static_cast<Index>(X.size())), mirrored(is_mirrored) {
+  if (!mirrored) return;
+  for (Index A = 0; A < count; ++A)
+    if (at(X, A)[0] != 0) source.push_back(A);
+  for (const Index A : source) {
+    Vec<D> image = at(X, A);
+    image[0] = -image[0];
+    X.push_back(image);
+  }
+}
+
+template <int D>
+ParticleSet<D>::ParticleSet(ParticleCloud<D> cloud, const AdaptiveSupport& rule,
                             KernelFunction kernel_function, const Mat<D>& stretch)
-    : X_(std::move(X)),
-      support_(X_.size()),
+    : cloud_(std::move(cloud)),
+      support_(cloud_.X.size()),
       kernel_function_(kernel_function),
-      search_(NeighborSearch<D>::in_order(X_)),
-      pressed_(press(stretch, X_)) {
+      search_(NeighborSearch<D>::in_order(cloud_.X)),
+      pressed_(press(stretch, cloud_.X)) {
   const OwnItems own = evenly.own_rows(size());
   parallel_for(own, [&](Index A) {
     // The nearest point to a particle is the particle itself, hence rank + 1.
@@ -73,28 +86,37 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule,
         rule.factor * kernel_search().distance_of_nearest(at(kernel_X(), A), rule.rank + 1);
   });
   evenly.complete_rows(size(), support_.data(), sizeof(Real));
-  for (const Real support : support_) largest_support_ = std::max(largest_support_, support);
+  settle_supports();
 }
 
 template <int D>
-ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, KernelFunction kernel_function,
+ParticleSet<D>::ParticleSet(ParticleCloud<D> cloud, Real support, KernelFunction kernel_function,
                             const Mat<D>& stretch)
-    : X_(std::move(X)),
-      support_(X_.size(), support),
+    : cloud_(std::move(cloud)),
+      support_(cloud_.X.size(), support),
       largest_support_(support),
       kernel_function_(kernel_function),
-      search_(NeighborSearch<D>::in_order(X_)),
-      pressed_(press(stretch, X_)) {}
+      search_(NeighborSearch<D>::in_order(cloud_.X)),
+      pressed_(press(stretch, cloud_.X)) {}
 
 template <int D>
-ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support,
+ParticleSet<D>::ParticleSet(ParticleCloud<D> cloud, std::span<const Real> support,
                             KernelFunction kernel_function, const Mat<D>& stretch)
-    : X_(std::move(X)),
+    : cloud_(std::move(cloud)),
       support_(support.begin(), support.end()),
-      largest_support_(*std::max_element(support_.begin(), support_.end())),
       kernel_function_(kernel_function),
-      search_(NeighborSearch<D>::in_order(X_)),
-      pressed_(press(stretch, X_)) {}
+      search_(NeighborSearch<D>::in_order(cloud_.X)),
+      pressed_(press(stretch, cloud_.X)) {
+  support_.resize(cloud_.X.size());
+  settle_supports();
+}
+
+template <int D>
+void ParticleSet<D>::settle_supports() {
+  for (Index A = size(); A < static_cast<Index>(support_.size()); ++A)
+    at(support_, A) = at(support_, source(A));
+  largest_support_ = *std::max_element(support_.begin(), support_.end());
+}
 
 template <int D>
 Index ParticleSet<D>::limit_supports(std::vector<Real> limit) {
@@ -104,7 +126,7 @@ Index ParticleSet<D>::limit_supports(std::vector<Real> limit) {
     shortened += at(limit_, A) < at(support_, A);
     at(support_, A) = std::min(at(support_, A), at(limit_, A));
   }
-  largest_support_ = *std::max_element(support_.begin(), support_.end());
+  settle_supports();
   return shortened;
 }
 
@@ -215,13 +237,14 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
       const Vec<D> place = kernel_place(at(points, q));
       kernel_search().within(place, growth * largest_asked_for, near);
       for (const Index A : near) {
-        Real enlarged = growth * at(asked_for, A);
-        if (!limit_.empty()) enlarged = std::min(enlarged, at(limit_, A));
+        const Index B = source(A);
+        Real enlarged = growth * at(asked_for, B);
+        if (!limit_.empty()) enlarged = std::min(enlarged, at(limit_, B));
         if ((at(kernel_X(), A) - place).norm() < enlarged)
-          at(support_, A) = std::max(at(support_, A), enlarged);
+          at(support_, B) = std::max(at(support_, B), enlarged);
       }
     }
-    largest_support_ = *std::max_element(support_.begin(), support_.end());
+    settle_supports();
   }
   for (const Index q : poor) require_quality(at(quality, q), at(points, q), body);
   Index enlarged = 0;
@@ -274,7 +297,7 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
   std::string place;
   for (int i = 0; i < D; ++i) place += fmt::format("{}{:.6g}", i ? ", " : "", x[i]);
   std::vector<Vec<D>> neighbours;
-  for (const Candidate<D>& candidate : near) neighbours.push_back(at(X_, candidate.particle));
+  for (const Candidate<D>& candidate : near) neighbours.push_back(at(cloud_.X, candidate.particle));
   const char* remedy =
       !limit_.empty()
           ? "more particles through the wall and along it: supports must end before the "
@@ -291,6 +314,8 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
       body, place, near.size(), quality, unusable_quality, remedy));
 }
 
+template struct ParticleCloud<2>;
+template struct ParticleCloud<3>;
 template class ParticleSet<2>;
 template class ParticleSet<3>;
 

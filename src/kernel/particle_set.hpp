@@ -10,6 +10,18 @@
 
 namespace meniscus {
 
+/// The places of particles. In the half plane of a body of revolution (axisymmetry note 2), each
+/// particle off the axis x = 0 also has an image at (-x, y): a "mirrored" cloud.
+template <int D>
+struct ParticleCloud {
+  ParticleCloud(std::vector<Vec<D>> particles, bool is_mirrored = false);
+
+  std::vector<Vec<D>> X;  ///< of the particles, then of the images
+  Index count;            ///< number of particles
+  bool mirrored;
+  std::vector<Index> source;  ///< [image] its particle, ascending
+};
+
 /// Reference positions and supports of particles, with the search tree over them. The set must not
 /// change once rows are built on it.
 ///
@@ -17,6 +29,9 @@ namespace meniscus {
 /// X: N_A(x) = M_A(U^-1 x). In kernel places, supports are balls, and their radii are measured
 /// there. The shape functions of a stretched ball are then as good as the shape functions of the
 /// unstretched ball.
+///
+/// In a mirrored cloud, searches and candidates contain images, whose numbers follow those of the
+/// particles. Rows do not: they are folded (point_rows.hpp).
 template <int D>
 class ParticleSet {
  public:
@@ -27,19 +42,24 @@ class ParticleSet {
   };
 
   /// Sets the supports by `rule`. The stretch U is symmetric with det U = 1.
-  ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, KernelFunction kernel_function,
+  ParticleSet(ParticleCloud<D> cloud, const AdaptiveSupport& rule, KernelFunction kernel_function,
               const Mat<D>& stretch = Mat<D>::Identity());
   /// Gives all particles the same support.
-  ParticleSet(std::vector<Vec<D>> X, Real support, KernelFunction kernel_function,
+  ParticleSet(ParticleCloud<D> cloud, Real support, KernelFunction kernel_function,
               const Mat<D>& stretch = Mat<D>::Identity());
 
   /// Sets the supports to support[particle].
-  ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support, KernelFunction kernel_function,
+  ParticleSet(ParticleCloud<D> cloud, std::span<const Real> support, KernelFunction kernel_function,
               const Mat<D>& stretch = Mat<D>::Identity());
 
-  Index size() const { return static_cast<Index>(X_.size()); }
-  std::span<const Vec<D>> X() const { return X_; }
-  std::span<const Real> support() const { return support_; }
+  Index size() const { return cloud_.count; }
+  std::span<const Vec<D>> X() const { return of_particles<Vec<D>>(cloud_.X); }
+  std::span<const Real> support() const { return of_particles<Real>(support_); }
+  bool mirrored() const { return cloud_.mirrored; }
+  /// The particle of a candidate: itself, or that whose image it is.
+  Index source(Index candidate) const {
+    return candidate < size() ? candidate : at(cloud_.source, candidate - size());
+  }
   KernelFunction kernel_function() const { return kernel_function_; }
   const NeighborSearch<D>& search() const { return search_; }
 
@@ -94,7 +114,13 @@ class ParticleSet {
     NeighborSearch<D> search;
   };
   static std::optional<Pressed> press(const Mat<D>& stretch, std::span<const Vec<D>> X);
-  std::span<const Vec<D>> kernel_X() const { return pressed_ ? pressed_->X : X_; }
+  template <class T>
+  std::span<const T> of_particles(const std::vector<T>& all) const {
+    return std::span(all).first(static_cast<std::size_t>(size()));
+  }
+  /// Gives images the supports of their particles, and finds the largest.
+  void settle_supports();
+  std::span<const Vec<D>> kernel_X() const { return pressed_ ? pressed_->X : cloud_.X; }
   const NeighborSearch<D>& kernel_search() const { return pressed_ ? pressed_->search : search_; }
 
   template <class Keep>
@@ -103,9 +129,9 @@ class ParticleSet {
                     std::vector<Real>& quality) const;
   [[noreturn]] void refuse(Real quality, const Vec<D>& x, const std::string& body) const;
 
-  std::vector<Vec<D>> X_;
-  std::vector<Real> support_;
-  std::vector<Real> limit_;  // [particle]; empty without limits
+  ParticleCloud<D> cloud_;
+  std::vector<Real> support_;  // of particles, then of images
+  std::vector<Real> limit_;    // [particle]; empty without limits
   Real largest_support_ = 0;
   KernelFunction kernel_function_;
   NeighborSearch<D> search_;

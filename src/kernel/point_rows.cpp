@@ -13,22 +13,27 @@ constexpr Index group_size = 4;  // points of one batch of ReproducingKernel; th
 
 /// Calls f(array, numbers per entry) for each array that rows of this content have.
 template <int D, class F>
-void for_arrays(RowContent content, F&& f) {
+void for_arrays(RowContent content, bool folded, F&& f) {
+  constexpr auto pairs = static_cast<std::size_t>(hessian_count(D));
   f(&PointRows<D>::particle, std::size_t{1});
   if (content.value) f(&PointRows<D>::value, std::size_t{1});
   if (content.gradient) f(&PointRows<D>::gradient, std::size_t{D});
-  if (content.hessian) f(&PointRows<D>::hessian, static_cast<std::size_t>(hessian_count(D)));
+  if (content.hessian) f(&PointRows<D>::hessian, pairs);
+  if (!folded) return;
+  if (content.value) f(&PointRows<D>::odd_value, std::size_t{1});
+  if (content.gradient) f(&PointRows<D>::odd_gradient, std::size_t{D});
+  if (content.hessian) f(&PointRows<D>::odd_hessian, pairs);
 }
 
 /// Sets the number of entries of all arrays.
 template <int D>
 void resize(PointRows<D>& rows, std::size_t entries, RowContent content) {
-  for_arrays<D>(content,
+  for_arrays<D>(content, rows.folded,
                 [&](auto array, std::size_t numbers) { (rows.*array).resize(entries * numbers); });
 }
 template <int D>
 void reserve(PointRows<D>& rows, std::size_t entries, RowContent content) {
-  for_arrays<D>(content,
+  for_arrays<D>(content, rows.folded,
                 [&](auto array, std::size_t numbers) { (rows.*array).reserve(entries * numbers); });
 }
 
@@ -71,6 +76,55 @@ void stretch_derivatives(PointRows<D>& rows, const Mat<D>& G) {
   }
 }
 
+/// Adds sign times `numbers` numbers of entry `from` to entry `to`.
+void add_entry(const UnsetVector<Real>& from_array, Offset from, Real sign,
+               UnsetVector<Real>& to_array, Offset to, std::size_t numbers) {
+  for (std::size_t i = 0; i < numbers; ++i)
+    at(to_array, to * static_cast<Offset>(numbers) + static_cast<Offset>(i)) +=
+        sign * at(from_array, from * static_cast<Offset>(numbers) + static_cast<Offset>(i));
+}
+
+/// Folds rows that have entries for images. An image reaches a point only if its particle does.
+template <int D>
+PointRows<D> folded(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
+                    const PointRows<D>& rows, RowContent content) {
+  PointRows<D> result;
+  result.folded = true;
+  for (Index q = 0; q < rows.size(); ++q) {
+    const Offset first = at(rows.start, q), next = at(rows.start, q + 1);
+    const auto begin = rows.particle.begin() + first, end = rows.particle.begin() + next;
+    const Offset own = std::lower_bound(begin, end, particles.size()) - begin;
+    const Offset entry = result.entries();
+    result.particle.insert(result.particle.end(), begin, begin + own);
+    result.start.push_back(entry + own);
+    const auto add = [&](Offset e, Offset to, Real even, Real odd) {
+      for_arrays<D>(content, false, [&](auto array, std::size_t numbers) {
+        if constexpr (std::is_same_v<decltype(array), UnsetVector<Real> PointRows<D>::*>)
+          add_entry(rows.*array, e, even, result.*array, to, numbers);
+      });
+      if (content.value) add_entry(rows.value, e, odd, result.odd_value, to, 1);
+      if (content.gradient) add_entry(rows.gradient, e, odd, result.odd_gradient, to, D);
+      if (content.hessian)
+        add_entry(rows.hessian, e, odd, result.odd_hessian, to,
+                  static_cast<std::size_t>(hessian_count(D)));
+    };
+    for_arrays<D>(content, true, [&](auto array, std::size_t numbers) {
+      if constexpr (std::is_same_v<decltype(array), UnsetVector<Real> PointRows<D>::*>)
+        (result.*array).resize(static_cast<std::size_t>(entry + own) * numbers, 0.0);
+    });
+    for (Offset e = first; e < next; ++e) {
+      const Index A = at(rows.particle, e), source = particles.source(A);
+      const Offset to = std::lower_bound(begin, begin + own, source) - begin;
+      if (to == own || *(begin + to) != source) continue;
+      const bool on_axis = at(particles.X(), source)[0] == 0;
+      add(e, entry + to, 1, on_axis ? 0 : A == source ? 1 : -1);
+    }
+    if (content.value && at(points, q)[0] == 0)  // not only to rounding
+      std::fill(result.odd_value.begin() + entry, result.odd_value.end(), 0.0);
+  }
+  return result;
+}
+
 template <int D, int Degree>
 PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
                         RowContent content, const std::string& body) {
@@ -99,7 +153,7 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
     append_row(rows, candidates, content, kernel, static_cast<int>(lane));
   }
   if (particles.pressed()) stretch_derivatives(rows, *particles.pressed());
-  return rows;
+  return particles.mirrored() ? folded(particles, points, rows, content) : rows;
 }
 
 /// Reserves memory for `times` as many entries as `some` rows have, times a safety factor of 2.
@@ -122,7 +176,7 @@ void append_rows(PointRows<D>& rows, std::span<const PointRows<D>> parts, RowCon
     for (std::size_t q = 1; q < part.start.size(); ++q) rows.start.push_back(base + part.start[q]);
     first.push_back(first.back() + part.particle.size());
   }
-  for_arrays<D>(content, [&](auto array, std::size_t numbers) {
+  for_arrays<D>(content, rows.folded, [&](auto array, std::size_t numbers) {
     grow(rows.*array, first.back() * numbers);
     parallel_for(static_cast<Index>(parts.size()), [&](Index k) {
       const auto& some = at(parts, k).*array;
@@ -136,7 +190,7 @@ void append_rows(PointRows<D>& rows, std::span<const PointRows<D>> parts, RowCon
 template <int D>
 std::size_t PointRows<D>::bytes() const {
   std::size_t sum = start.size() * sizeof(Offset);
-  for_arrays<D>({.value = true, .gradient = true, .hessian = true},
+  for_arrays<D>({.value = true, .gradient = true, .hessian = true}, folded,
                 [&](auto array, std::size_t) { sum += std::span(this->*array).size_bytes(); });
   return sum;
 }
@@ -146,10 +200,12 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
                               RowContent content, const std::string& body) {
   const auto n = static_cast<Index>(points.size());
   const Index groups = (n + group_size - 1) / group_size;
+  content.value = content.value || (particles.mirrored() && content.gradient);
   constexpr Index block = 1024;  // block by block: separate rows of all groups would take more
                                  // memory
   std::vector<PointRows<D>> part(static_cast<std::size_t>(std::min(block, groups)));
   PointRows<D> rows;
+  rows.folded = particles.mirrored();
   rows.start.reserve(points.size() + 1);
   for (Index begin = 0; begin < groups; begin += block) {
     const Index count = std::min(block, groups - begin);
@@ -165,6 +221,8 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
     if (begin == 0) reserve<D>(rows, part, static_cast<Real>(groups) / count, content);
     append_rows<D>(rows, std::span(part).first(static_cast<std::size_t>(count)), content);
   }
+  if (rows.folded)
+    for (const Vec<D>& x : points) rows.radius.push_back(x[0]);
   return rows;
 }
 
@@ -174,6 +232,7 @@ template <int D>
 PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
                               RowContent content, const std::string& body, ItemRange some) {
   const auto n = static_cast<Index>(points.size());
+  content.value = content.value || (particles.mirrored() && content.gradient);
   const Index first = some.begin / group_size * group_size,
               last = std::min(n, (some.end + group_size - 1) / group_size * group_size);
   PointRows<D> rows = build_point_rows<D>(
@@ -181,7 +240,7 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
       points.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first)),
       content, body);
   const Offset before = at(rows.start, some.begin - first), end = at(rows.start, some.end - first);
-  for_arrays<D>(content, [&](auto array, std::size_t numbers) {
+  for_arrays<D>(content, rows.folded, [&](auto array, std::size_t numbers) {
     auto& entries = rows.*array;
     entries.resize(static_cast<std::size_t>(end) * numbers);
     entries.erase(entries.begin(), entries.begin() + before * static_cast<std::ptrdiff_t>(numbers));
@@ -192,6 +251,9 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
     start.push_back(at(rows.start, q - first) - before);
   start.resize(points.size() + 1, end - before);
   rows.start = std::move(start);
+  rows.radius.clear();
+  if (rows.folded)
+    for (const Vec<D>& x : points) rows.radius.push_back(x[0]);
   return rows;
 }
 

@@ -18,6 +18,10 @@ struct RowContent {
 };
 
 /// Values, gradients and Hessians of shape functions in compressed rows.
+///
+/// Rows of a mirrored cloud are "folded" (axisymmetry note 2): an image A' adds N_A' to the entry
+/// of its particle for components along the axis, which are even in x, and -N_A' for the component
+/// 0 across it, which is odd. The arrays of the odd component are empty in other clouds.
 template <int D>
 struct PointRows {
   std::vector<Offset> start{0};  ///< [point + 1]
@@ -25,6 +29,9 @@ struct PointRows {
   UnsetVector<Real> value;       ///< [entry]
   UnsetVector<Real> gradient;    ///< [entry][i]
   UnsetVector<Real> hessian;     ///< [entry][ij]
+  bool folded = false;
+  std::vector<Real> radius;  ///< [point] of folded rows: the distance of the point from the axis
+  UnsetVector<Real> odd_value, odd_gradient, odd_hessian;
 
   Index size() const { return static_cast<Index>(start.size()) - 1; }
   Offset entries() const { return start.back(); }

@@ -5,9 +5,23 @@
 
 namespace meniscus {
 
+/// sum_A N_A f_A at point q, for folded rows.
+template <int D>
+[[gnu::noinline]] NodalVector folded_value_at(const PointRows<D>& rows, Index q,
+                                              const NodalVector* field) {
+  Lanes sum = Lanes::zero();
+  for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
+    const Real even = at(rows.value, e);
+    sum += Lanes(at(rows.odd_value, e), even, even, even) * field[at(rows.particle, e)];
+  }
+  return sum;
+}
+
 /// sum_A N_A f_A at point q.
 template <int D>
 NodalVector value_at(const PointRows<D>& rows, Index q, const NodalVector* field) {
+  if constexpr (D == 2)
+    if (rows.folded) return folded_value_at(rows, q, field);
   Lanes even = Lanes::zero(), odd = even;  // two chains hide the latency
   const Real* N = rows.value.data() + at(rows.start, q);
   const Index* A = rows.particle.data() + at(rows.start, q);
@@ -24,6 +38,8 @@ NodalVector value_at(const PointRows<D>& rows, Index q, const NodalVector* field
 template <int D>
 std::array<NodalVector, 2> values_at(const PointRows<D>& rows, Index q, const NodalVector* one,
                                      const NodalVector* other) {
+  if constexpr (D == 2)
+    if (rows.folded) return {folded_value_at(rows, q, one), folded_value_at(rows, q, other)};
   Lanes even[2] = {Lanes::zero(), Lanes::zero()}, odd[2] = {Lanes::zero(), Lanes::zero()};
   const Real* N = rows.value.data() + at(rows.start, q);
   const Index* A = rows.particle.data() + at(rows.start, q);
@@ -41,10 +57,26 @@ std::array<NodalVector, 2> values_at(const PointRows<D>& rows, Index q, const No
   return {even[0] + odd[0], even[1] + odd[1]};
 }
 
+/// Column K is sum_A f_A N_A,K at point q, for folded rows.
+template <int D>
+[[gnu::noinline]] std::array<Lanes, D> folded_gradient_at(const PointRows<D>& rows, Index q,
+                                                          const NodalVector* field) {
+  std::array<Lanes, D> column;
+  column.fill(Lanes::zero());
+  for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
+    for (int K = 0; K < D; ++K) {
+      const Real even = at(rows.gradient, e * D + K), odd = at(rows.odd_gradient, e * D + K);
+      at(column, K) += Lanes(odd, even, even, even) * field[at(rows.particle, e)];
+    }
+  return column;
+}
+
 /// The gradient of the field at point q: column K is sum_A f_A N_A,K.
 template <int D>
 [[gnu::always_inline]] inline std::array<Lanes, D> gradient_at(const PointRows<D>& rows, Index q,
                                                                const NodalVector* field) {
+  if constexpr (D == 2)
+    if (rows.folded) return folded_gradient_at(rows, q, field);
   Lanes even[D], odd[D];
   for (int K = 0; K < D; ++K) even[K] = odd[K] = Lanes::zero();
   const Real* g = rows.gradient.data() + at(rows.start, q) * D;
@@ -80,6 +112,14 @@ std::array<Real, static_cast<std::size_t>(hessian_count(D))> hessian_along(
 /// field_A += N_A x.
 template <int D>
 void scatter_value(const PointRows<D>& rows, Index q, NodalVector x, NodalVector* field) {
+  if constexpr (D == 2)
+    if (rows.folded) {
+      for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
+        const Real even = at(rows.value, e);
+        field[at(rows.particle, e)] += Lanes(at(rows.odd_value, e), even, even, even) * x;
+      }
+      return;
+    }
   for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
     field[at(rows.particle, e)] += at(rows.value, e) * x;
 }

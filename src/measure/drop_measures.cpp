@@ -22,7 +22,7 @@ class FineSurface {
 
   Real isoperimetric(const Motion& motion) {
     const auto size = fine().size(motion);
-    return isoperimetric_ratio<D>(size.area, size.volume);
+    return isoperimetric_ratio(size.area, size.volume, body_.space());
   }
   Real least_area_ratio(const Motion& motion) {
     Real least = std::numeric_limits<Real>::max();
@@ -37,6 +37,7 @@ class FineSurface {
       area += da;
     });
     centre /= area;
+    if (body_.geometry.grid.revolved) centre[0] = 0;
     for_points(motion,
                [&](const Vec<D>& x, Real, Real da) { mean += da / area * (x - centre).norm(); });
     for_points(motion, [&](const Vec<D>& x, Real, Real da) {
@@ -82,6 +83,7 @@ PlaceMotion motion_of_places(const Body<D>& body, const Motion& motion) {
     square += m * sum(v * v);
     momentum += m * v;
   }
+  if (body.geometry.grid.revolved) momentum.set(0, 0);
   return {square, std::max(0.0, square - sum(momentum * momentum) / mass), mass};
 }
 
@@ -98,19 +100,18 @@ Real mean_viscosity(const Body<D>& body, std::span<const Real> viscosity) {
 
 }  // namespace
 
-template <int D>
-Real isoperimetric_ratio(Real area, Real volume) {
-  const Real least = D == 3 ? std::cbrt(36 * std::numbers::pi * volume * volume)
-                            : std::sqrt(4 * std::numbers::pi * volume);
+Real isoperimetric_ratio(Real area, Real volume, int space_dimension) {
+  const Real least = space_dimension == 3 ? std::cbrt(36 * std::numbers::pi * volume * volume)
+                                          : std::sqrt(4 * std::numbers::pi * volume);
   return area / least;
 }
 
-template <int D>
-Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real area, Real volume) {
-  const Real radius = ball_radius<D>(volume);
+Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real area, Real volume,
+                        int space_dimension) {
+  const Real radius = ball_radius(volume, space_dimension);
   Real left = 0;
   for (const NodalVector& f : force) left += std::sqrt(sum(f * f));
-  return left / ((D - 1) * gamma * area / radius);
+  return left / ((space_dimension - 1) * gamma * area / radius);
 }
 
 template <int D>
@@ -139,10 +140,6 @@ std::vector<MeasureSource> drop_measures(const Body<D>& body, std::span<const Re
   return measures;
 }
 
-template Real isoperimetric_ratio<2>(Real, Real);
-template Real isoperimetric_ratio<3>(Real, Real);
-template Real capillary_residual<2>(std::span<const NodalVector>, Real, Real, Real);
-template Real capillary_residual<3>(std::span<const NodalVector>, Real, Real, Real);
 template std::vector<MeasureSource> drop_measures(const Body<2>&, std::span<const Real>, Real);
 template std::vector<MeasureSource> drop_measures(const Body<3>&, std::span<const Real>, Real);
 

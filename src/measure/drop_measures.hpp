@@ -9,13 +9,12 @@
 namespace meniscus {
 
 /// Ratio of `area` (2D: circumference) to the area of a ball (disk) with the same volume (area).
-template <int D>
-Real isoperimetric_ratio(Real area, Real volume);
+Real isoperimetric_ratio(Real area, Real volume, int space_dimension);
 
-/// The unbalanced forces on the particles of a body: sum |f_A| relative to the capillary forces (D
-/// - 1) gamma area / R, where R is the radius of the ball of the same volume.
-template <int D>
-Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real area, Real volume);
+/// The unbalanced forces on the particles of a body: sum |f_A| relative to the capillary forces (d
+/// - 1) gamma area / R in d dimensions, where R is the radius of the ball of the same volume.
+Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real area, Real volume,
+                        int space_dimension);
 
 /// Measures of a body with surface tension `gamma`. `viscosity` has one value per particle and is
 /// empty for a solid.

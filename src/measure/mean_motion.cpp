@@ -4,8 +4,10 @@
 #include "numbers/dense.hpp"
 #include "parallel/parallel.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace meniscus {
@@ -54,6 +56,7 @@ class Whole {
   /// The k-th longest axis of the ellipsoid with the same second moments over mass. An axis of
   /// length 2 a has the second moment a^2/5 (ellipse: a^2/4).
   Real axis(const Motion& motion, int k) const {
+    if (revolved()) return revolved_axis(motion, k);
     std::array<Real, D> x{};
     for (int i = 0; i < D; ++i) at(x, i) = centre(motion, i);
     Mat<D> moments;
@@ -65,7 +68,19 @@ class Whole {
     return 2 * std::sqrt((D + 2) * std::max(0.0, symmetric_eigenvalues<D>(moments)[D - 1 - k]));
   }
 
+  bool revolved() const { return body_.geometry.grid.revolved; }
+
  private:
+  /// The squares of distances from the axis are those of two directions.
+  Real revolved_axis(const Motion& motion, int k) const {
+    const Real y = centre(motion, 1);
+    const Real across = mean([&](Index A) { return std::pow(place(motion, A, 0), 2) / 2; }),
+               along = mean([&](Index A) { return std::pow(place(motion, A, 1) - y, 2); });
+    std::array<Real, 3> moments{along, across, across};
+    std::sort(moments.begin(), moments.end(), std::greater());
+    return 2 * std::sqrt(5 * at(moments, k));
+  }
+
   const Body<D>& body_;
 };
 
@@ -74,18 +89,19 @@ std::vector<MeasureSource> mean_motion(const Body<D>& body, const UnitSystem&) {
   const Whole<D> whole(body);
   std::vector<MeasureSource> measures;
   const auto along = [](const char* name, int i) { return std::string(name) + "_" + "xyz"[i]; };
-  for (int i = 0; i < D; ++i)
+  const int first = whole.revolved() ? 1 : 0;
+  for (int i = first; i < D; ++i)
     measures.push_back({along("centre", i), dimension::length, "of mass",
                         [whole, i](const Motion& m) { return whole.centre(m, i); }});
-  for (int i = 0; i < D; ++i)
+  for (int i = first; i < D; ++i)
     measures.push_back({along("velocity", i), dimension::velocity, "of the centre of mass",
                         [whole, i](const Motion& m) { return whole.velocity_of_centre(m, i); }});
-  for (int i = 0; i < D; ++i)
+  for (int i = first; i < D; ++i)
     measures.push_back({along("momentum", i), of_sum(dimension::momentum, D), "mass by velocity",
                         [whole, i](const Motion& m) {
                           return whole.sum([&](Index A) { return whole.velocity(m, A, i); });
                         }});
-  for (int i = D == 3 ? 0 : 2; i < 3; ++i)
+  for (int i = D == 3 ? 0 : 2; i < 3 && !whole.revolved(); ++i)
     measures.push_back({along("spin", i), of_sum(dimension::angular_momentum, D),
                         "angular momentum about the centre of mass", [whole, i](const Motion& m) {
                           return whole.spin(m, (i + 1) % 3, (i + 2) % 3);
@@ -93,7 +109,7 @@ std::vector<MeasureSource> mean_motion(const Body<D>& body, const UnitSystem&) {
   measures.push_back({"kinetic_energy", of_sum(dimension::energy, D),
                       "of the whole motion, deformation included",
                       [whole](const Motion& m) { return whole.kinetic_energy(m); }});
-  for (int k = 0; k < D; ++k)
+  for (int k = 0; k < body.space(); ++k)
     measures.push_back({"principal_extent_" + std::to_string(k + 1), dimension::length,
                         "axis of the ellipsoid that has the same second moments of mass, the "
                         "longest first; of an ellipsoid its own, however it is turned",

@@ -25,12 +25,13 @@ class SurfaceShape {
     Box<D> box;
     for (const Index A : particles_) box.include(at(body.particles.X(), A));
     box.extent().maxCoeff(&axis_);
+    if (body.geometry.grid.revolved) axis_ = 1;
   }
 
   Vec<D> extents(const Motion& motion) { return extents_.box(motion).extent(); }
 
   /// Least-squares fit r = r0 + r2 P2 + r4 P4 of the distance from the centre (2D: cos 2 phi,
-  /// cos 4 phi) about the long reference axis: (r0, r2, r4).
+  /// cos 4 phi) about the long reference axis, or the axis of revolution: (r0, r2, r4).
   Eigen::Vector3d legendre_fit(const Motion& motion) {
     const std::vector<Vec<D>> x = places(motion);
     const Vec<D> centre = extents_.box(motion).centre();
@@ -38,11 +39,13 @@ class SurfaceShape {
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Vec<D>& p : x) {
       const Real r = (p - centre).norm(), c = (p[axis_] - centre[axis_]) / r, c2 = c * c;
+      const bool in_space = space_dimension(body_.geometry.grid) == 3;
+      const Real share = body_.geometry.grid.revolved ? p[0] : 1;  // the length of its circle
       const Eigen::Vector3d mode =
-          D == 3 ? Eigen::Vector3d(1, 1.5 * c2 - 0.5, (35 * c2 * c2 - 30 * c2 + 3) / 8)
-                 : Eigen::Vector3d(1, 2 * c2 - 1, 8 * c2 * c2 - 8 * c2 + 1);
-      normal += mode * mode.transpose();
-      right += r * mode;
+          in_space ? Eigen::Vector3d(1, 1.5 * c2 - 0.5, (35 * c2 * c2 - 30 * c2 + 3) / 8)
+                   : Eigen::Vector3d(1, 2 * c2 - 1, 8 * c2 * c2 - 8 * c2 + 1);
+      normal += share * mode * mode.transpose();
+      right += share * r * mode;
     }
     return solve_symmetric(normal, right);
   }

@@ -108,6 +108,7 @@ Box<D> SurfaceExtents<D>::box(const Motion& motion) {
     box.low[i] =
         -largest_over(points_->of_patch, -box.low[i], [&](Index p) { return -at(x, p)[i]; });
   }
+  if (body_.geometry.grid.revolved) box.low[0] = -box.high[0];
   return box;
 }
 

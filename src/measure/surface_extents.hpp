@@ -18,7 +18,8 @@ class SurfaceExtents {
  public:
   explicit SurfaceExtents(const Body<D>& body) : body_(body) {}
 
-  /// The box around all patches at a motion. Shape functions are computed at the first call. All
+  /// The box around all patches at a motion, and around their images beyond the axis in a body of
+  /// revolution. Shape functions are computed at the first call. All
   /// ranks must call this. Throws SolveError if shape functions cannot be determined.
   Box<D> box(const Motion& motion);
 

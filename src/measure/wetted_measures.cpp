@@ -68,7 +68,7 @@ class WettedSurface {
     if (on.is_plane()) {
       const Real down = weight.dot(normal);
       if ((weight - down * normal).norm() > 1e-9 * weight.norm()) return without_meaning;
-      angle = profile_on<D>(a, V, down).contact_angle;
+      angle = profile(a, V, down).contact_angle;
     } else {
       if (weight.norm() > 0 || on.axis().norm() > 0) return without_meaning;
       // The plane through the line cuts a cap off the wall, which is part of a drop on a ball, and
@@ -76,7 +76,7 @@ class WettedSurface {
       const Real turn = std::asin(std::min(a / on.radius(), 1.0));
       const Real inside = is_inside(x) ? 1 : -1;
       const Real unit = cap_volume(turn, on.radius());
-      angle = profile_on<D>(a, V - inside * unit, 0).contact_angle + inside * turn;
+      angle = profile(a, V - inside * unit, 0).contact_angle + inside * turn;
     }
     return angle * 180 / std::numbers::pi;
   }
@@ -175,14 +175,26 @@ class WettedSurface {
     for (Index p = 0; p < patches_->patch_count(); ++p)
       if (at(is_wetted_, p))
         for (const PatchFunctions<D>& f : gauss)
-          sum += f.weight * area_vector<D>(patch_place<D>(f, patches_->points_of(p), x));
+          sum += f.weight * ring_vector(patch_place<D>(f, patches_->points_of(p), x));
+    if (revolved()) sum[0] = 0;
     return sum;
   }
   /// Points out of the drop.
   Vec<D> mean_normal(const std::vector<Vec<D>>& x) const { return face_vector(x).normalized(); }
   Real base(const std::vector<Vec<D>>& x) const {
     const Real size = face_vector(x).norm();
-    return D == 3 ? std::sqrt(size / std::numbers::pi) : size / 2;
+    return body_.space() == 3 ? std::sqrt(size / std::numbers::pi) : size / 2;
+  }
+  bool revolved() const { return body_.geometry.grid.revolved; }
+  /// The area vector of a point; in a body of revolution that of its circle.
+  Vec<D> ring_vector(const CellPoint<D, D - 1>& at) const {
+    return (revolved() ? 2 * std::numbers::pi * at.X[0] : 1) * area_vector<D>(at);
+  }
+  DropProfile<3> profile(Real base, Real volume, Real bond) const {
+    if (body_.space() == 3) return profile_on<3>(base, volume, bond);
+    const DropProfile<2> plane = profile_on<2>(base, volume, bond);
+    return {plane.base_radius,   plane.volume,    plane.height,
+            plane.contact_angle, plane.free_area, plane.centroid};
   }
   /// True for a drop in a cavity: points of its free surface are inside of the wall.
   bool is_inside(const std::vector<Vec<D>>& x) const {
@@ -195,12 +207,10 @@ class WettedSurface {
     for (int i = 0; i < D; ++i) at(y, i) = x[i];
     return wall().template foot<Real>(y).distance;
   }
-  static Real cap_volume(Real theta, Real R) {
+  Real cap_volume(Real theta, Real R) const {
     const Real c = std::cos(theta);
-    if constexpr (D == 3)
-      return std::numbers::pi * R * R * R * (2 + c) * (1 - c) * (1 - c) / 3;
-    else
-      return R * R * (theta - std::sin(theta) * c);
+    if (body_.space() == 3) return std::numbers::pi * R * R * R * (2 + c) * (1 - c) * (1 - c) / 3;
+    return R * R * (theta - std::sin(theta) * c);
   }
   /// The greatest distance from the wall on a patch: the best of 5 places per direction, then of 5
   /// places around it, and so on.
@@ -241,13 +251,13 @@ std::vector<MeasureSource> wetted_measures(const Body<D>& body, const WettedFace
                                            WettingDrop<D> drop) {
   const auto surface = std::make_shared<WettedSurface<D>>(body, face, std::move(drop));
   std::vector<MeasureSource> measures{
-      {D == 3 ? "wetted_area" : "wetted_length", D == 3 ? dimension::area : dimension::length,
+      {body.space() == 3 ? "wetted_area" : "wetted_length", of_sum(dimension::area, D),
        "size of the wetted face",
        [surface](const Motion& motion) { return surface->wetted_area(motion); }},
       {"base_radius", dimension::length,
        "radius of the disk inside the contact line (2D: half the length)",
        [surface](const Motion& motion) { return surface->base_radius(motion); }},
-      {"volume", D == 3 ? dimension::volume : dimension::area,
+      {"volume", of_sum(dimension::volume, D),
        "inside the surface that pressure and tension see (2D: area)",
        [surface](const Motion& motion) { return surface->volume(motion); }},
       {"height", dimension::length, "greatest distance of the surface from the wall",
@@ -255,7 +265,7 @@ std::vector<MeasureSource> wetted_measures(const Body<D>& body, const WettedFace
       {"line_speed", dimension::velocity,
        "mean speed of the contact line, positive if the drop spreads",
        [surface](const Motion& motion) { return surface->line_speed(motion); }}};
-  for (int i = 0; i < D; ++i)
+  for (int i = body.geometry.grid.revolved ? 1 : 0; i < D; ++i)
     measures.push_back({std::string("force_") + "xyz"[i], of_sum(dimension::force, D),
                         "force of the drop on the wall",
                         [surface, i](const Motion& motion) { return surface->force(motion)[i]; }});

@@ -108,7 +108,9 @@ class Cap {
   }
   Real angle_of_volume(const Motion& motion) {
     const Real slab = near_.wall().line(motion).depth * near_.points(motion).wet;
-    return angle_of_cap<D>(near_.surface().placed(motion).size.volume + slab, height(motion));
+    const Real volume = near_.surface().placed(motion).size.volume + slab;
+    return near_.body().space() == 3 ? angle_of_cap<3>(volume, height(motion))
+                                     : angle_of_cap<2>(volume, height(motion));
   }
 
  private:
@@ -132,15 +134,19 @@ class Cap {
         area += p.area[q];
       }
     mean /= area;
+    const bool revolved = near_.body().geometry.grid.revolved;
+    if (revolved) mean[0] = 0;  // the centre is on the axis
     Mat<D + 1> normal = Mat<D + 1>::Zero();
     Vec<D + 1> right = Vec<D + 1>::Zero();
     for (std::size_t q = 0; q < p.x.size(); ++q)
       if (p.height[q] > least) {
         Vec<D + 1> row;
         row << 2 * (p.x[q] - mean), 1;
+        if (revolved) row[0] = 0;
         normal += p.area[q] * row * row.transpose();
         right += p.area[q] * (p.x[q] - mean).squaredNorm() * row;
       }
+    if (revolved) normal(0, 0) = normal.trace();
     const Vec<D + 1> solution = solve_symmetric(normal, right);
     const Vec<D> c = solution.template head<D>();
     const auto foot = near_.wall().foot(mean + c, motion.time);
@@ -161,7 +167,31 @@ Vec<D> velocity_of_drop(const Body<D>& body, const Motion& motion) {
     momentum += at(body.mass, A) * vector_at<D>(v, A);
     mass += at(body.mass, A);
   }
+  if (body.geometry.grid.revolved) momentum[0] = 0;
   return momentum / mass;
+}
+
+/// The profile of a drop of revolution near a wall, from points of its section that are turned to
+/// several directions.
+LineAngles angles_around(const DropOnWall<2>& wall, const NearWall<2>::Points& p,
+                         const std::vector<Vec<2>>& x, const std::vector<Real>& area, Vec<2> mean,
+                         const Motion& motion) {
+  constexpr int directions = 8;
+  std::vector<Vec<3>> turned;
+  std::vector<Real> areas;
+  for (int k = 0; k < directions; ++k)
+    for (std::size_t q = 0; q < x.size(); ++q) {
+      const Real phi = 2 * std::numbers::pi * k / directions;
+      turned.emplace_back(std::cos(phi) * x[q][0], x[q][1], std::sin(phi) * x[q][0]);
+      areas.push_back(area[q] / directions);
+    }
+  mean[0] = 0;
+  const auto foot = wall.foot(mean, motion.time);
+  const Real above = foot.distance - p.film + wall.line(motion).depth, bend = foot.bend.trace();
+  const Vec<3> n(0, foot.normal[1], 0);
+  return fit_profile<3>(turned, areas,
+                        {Vec<3>(0, mean[1], 0) - above * n, n, bend / (1 - bend * above)},
+                        -wall.bond(motion.time).dot(foot.normal), Vec<3>::Unit(0));
 }
 
 /// The profile of a drop near a wall.
@@ -186,6 +216,8 @@ LineAngles angles_at(NearWall<D>& near, const Motion& motion) {
   constexpr std::size_t fewest = D == 3 ? 30 : 12;
   if (!(p.wet > 0) || x.size() < fewest) return {pi, pi, pi, 0};
   mean /= std::accumulate(area.begin(), area.end(), 0.0);
+  if constexpr (D == 2)
+    if (near.body().geometry.grid.revolved) return angles_around(wall, p, x, area, mean, motion);
   const auto foot = wall.foot(mean, motion.time);
   const Real above = foot.distance - p.film + wall.line(motion).depth, bend = curvature_of<D>(foot);
   const Vec<D> n = foot.normal, bond = wall.bond(motion.time);
@@ -201,12 +233,12 @@ LineAngles angles_at(NearWall<D>& near, const Motion& motion) {
 
 }  // namespace
 
-template <int D>
 std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wetted_area,
-                                          LineAt line) {
-  const auto radius = [area = std::move(wetted_area),
-                       line = std::move(line)](const Motion& motion) {
-    const Real disk = D == 3 ? std::sqrt(area(motion) / std::numbers::pi) : area(motion) / 2;
+                                          LineAt line, int space_dimension) {
+  const auto radius = [area = std::move(wetted_area), line = std::move(line),
+                       space_dimension](const Motion& motion) {
+    const Real disk =
+        space_dimension == 3 ? std::sqrt(area(motion) / std::numbers::pi) : area(motion) / 2;
     return std::clamp(disk + line(motion).beyond, 0.0, 2 * disk);
   };
   return {{"base_radius", dimension::length, "of the contact line (2D: half its distance)", radius},
@@ -271,11 +303,9 @@ std::vector<MeasureSource> profile_measures(const Body<D>& body, const DropOnWal
            angle(&LineAngles::error)}};
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                             \
-  template std::vector<MeasureSource> front_measures<D>(std::function<Real(const Motion&)>, \
-                                                        LineAt);                            \
-  template Real angle_of_cap<D>(Real, Real);                                                \
-  template std::vector<MeasureSource> cap_measures(const Body<D>&, const DropOnWall<D>&);   \
+#define MENISCUS_INSTANTIATE(D)                                                           \
+  template Real angle_of_cap<D>(Real, Real);                                              \
+  template std::vector<MeasureSource> cap_measures(const Body<D>&, const DropOnWall<D>&); \
   template std::vector<MeasureSource> profile_measures(const Body<D>&, const DropOnWall<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

@@ -19,9 +19,8 @@ using LineAt = std::function<BentLine(const Motion&)>;
 ///
 /// - base_radius: radius of a disk of this area (2D: half the length), plus BentLine::beyond.
 /// - line_speed: its rate, by a central difference over 1e-4 of the radius.
-template <int D>
 std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wetted_area,
-                                          LineAt line);
+                                          LineAt line, int space_dimension);
 
 /// The contact angle in radians of a spherical cap (2D: circular segment) with this volume (area)
 /// and height above a plane.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace meniscus {
@@ -89,7 +90,8 @@ typename PresentSurface<D>::Foot PresentSurface<D>::nearest(const Vec<D>& p, Ind
 }
 
 template <int D>
-Real enclosed_volume(const std::vector<std::array<Index, PatchFunctions<D>::nodes>>& patches,
+Real enclosed_volume(const Grid<D>& grid,
+                     const std::vector<std::array<Index, PatchFunctions<D>::nodes>>& patches,
                      const std::vector<Vec<D>>& points) {
   Real volume = 0;
   const std::vector<PatchFunctions<D>> gauss = patch_functions<D>(3);
@@ -101,15 +103,16 @@ Real enclosed_volume(const std::vector<std::array<Index, PatchFunctions<D>::node
         m = cross(place.J.col(0), place.J.col(1));
       else
         m = Vec<2>(place.J(1, 0), -place.J(0, 0));
-      volume += f.weight * place.X.dot(m) / D;
+      volume += grid.revolved ? f.weight * std::numbers::pi * place.X[0] * place.X[0] * m[0]
+                              : f.weight * place.X.dot(m) / D;
     }
   return volume;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                        \
-  template class PresentSurface<D>;                                    \
-  template Real enclosed_volume<D>(                                    \
-      const std::vector<std::array<Index, PatchFunctions<D>::nodes>>&, \
+#define MENISCUS_INSTANTIATE(D)                                                        \
+  template class PresentSurface<D>;                                                    \
+  template Real enclosed_volume<D>(                                                    \
+      const Grid<D>&, const std::vector<std::array<Index, PatchFunctions<D>::nodes>>&, \
       const std::vector<Vec<D>>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

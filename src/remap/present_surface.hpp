@@ -59,9 +59,10 @@ class PresentSurface {
   std::vector<std::vector<Index>> beside_;  // [patch] patches that share a point, ascending
 };
 
-/// Volume (2D: area) that the patches through `points` enclose.
+/// Volume (2D: area) that the patches through `points` enclose, as a surface of the body of a grid.
 template <int D>
-Real enclosed_volume(const std::vector<std::array<Index, PatchFunctions<D>::nodes>>& patches,
+Real enclosed_volume(const Grid<D>& grid,
+                     const std::vector<std::array<Index, PatchFunctions<D>::nodes>>& patches,
                      const std::vector<Vec<D>>& points);
 
 }  // namespace meniscus

@@ -50,10 +50,11 @@ template <int D>
 std::vector<Real> volume_changes(std::span<const Real> of_cells, const PointRows<D>& from,
                                  const PointRows<D>& to) {
   NodalVectors f;
-  for (const Real theta : of_cells) f.push_back({theta, 0, 0, 0});
+  // Component 1 also suits folded rows, whose component 0 is odd.
+  for (const Real theta : of_cells) f.push_back({0, theta, 0, 0});
   std::vector<Real> theta;
   for (const Lanes& value : shifted(f, values_at(from, f.data()), values_at(to, f.data())))
-    theta.push_back(value[0]);
+    theta.push_back(value[1]);
   return theta;
 }
 
@@ -95,12 +96,16 @@ RigidSums rigid_sums(const Body<D>& body, const State& state) {
 template <int D>
 void restore_momenta(const Body<D>& body, const RigidSums& target, State& state) {
   const RigidSums now = rigid_sums(body, state);
-  const Eigen::Vector3d a = (target.momentum - now.momentum) / now.mass;
+  Eigen::Vector3d a = (target.momentum - now.momentum) / now.mass;
   const Eigen::Vector3d spin_left = target.angular_momentum - now.angular_momentum -
                                     cross(now.centre, target.momentum - now.momentum);
   // In 2D the body spins about z only, with the plane moment of inertia.
-  const Eigen::Vector3d w = D == 3 ? Eigen::Vector3d(solve_symmetric(now.inertia, spin_left))
-                                   : Eigen::Vector3d(0, 0, spin_left[2] / now.inertia(2, 2));
+  Eigen::Vector3d w = D == 3 ? Eigen::Vector3d(solve_symmetric(now.inertia, spin_left))
+                             : Eigen::Vector3d(0, 0, spin_left[2] / now.inertia(2, 2));
+  if (body.geometry.grid.revolved) {  // it moves along the axis only
+    a[0] = 0;
+    w.setZero();
+  }
   for (Index A = 0; A < body.size(); ++A) {
     const Eigen::Vector3d dv = a + cross(w, spatial<D>(at(body.particles.X(), A)) - now.centre);
     at(state.v, body.first + A) += Lanes(dv[0], dv[1], D == 3 ? dv[2] : 0.0, 0);
@@ -119,7 +124,9 @@ std::vector<Vec<D>> present_nodes(const Body<D>& body, const NodalVector* u,
     present += body.cells.volume(A) * (1 + at(volume_change, A)) / body.volume_ratio(A);
     middle += at(x, A) / body.size();
   }
-  const Real stretch = std::pow(present / volume(moved(body.geometry, x, true).grid), 1.0 / D);
+  if (body.geometry.grid.revolved) middle[0] = 0;
+  const Real stretch =
+      std::pow(present / volume(moved(body.geometry, x, true).grid), 1.0 / body.space());
   for (Vec<D>& place : x) place = middle + stretch * (place - middle);
   return x;
 }

@@ -118,6 +118,23 @@ void place_inside(const Grid<D>& ideal, const std::vector<char>& on_boundary,
     if (number[i] >= 0) x[i] = at(solution, number[i]);
 }
 
+/// Like place_inside() in the half plane of a body of revolution, where positions across the axis
+/// are zero on it, and positions along it have no slope across it.
+template <int D>
+void place_beside_axis(const Body<D>& body, const Grid<D>& ideal,
+                       const std::vector<char>& on_boundary, std::vector<Vec<D>>& x) {
+  std::vector<char> held = on_boundary;
+  std::vector<Vec<D>> across = x;
+  for (Index A = 0; A < body.size(); ++A)
+    if (body.on_axis(A)) {
+      at(held, A) = 1;
+      at(across, A)[0] = 0;
+    }
+  place_inside(ideal, held, across);
+  place_inside(ideal, on_boundary, x);
+  for (std::size_t A = 0; A < x.size(); ++A) x[A][0] = across[A][0];
+}
+
 /// Moves the inner nodes of folded cells to the mean of the nodes at the other ends of their edges.
 /// Repeats this until no cell is folded or it no longer helps. Cells at the surface are curved like
 /// the surface.
@@ -159,6 +176,8 @@ Seeds<D> reseeded(const Body<D>& body, const NodalVector* u, const Grid<D>& idea
   const std::vector<Index> edges =
       body.geometry.surface->smooth() ? std::vector<Index>{} : nodes_on_edges(grid, surface);
   for (const Index node : edges) nodes.hold_on_edge(node);
+  for (const Index node : boundary_nodes(grid))  // the ends of the curve of a body of revolution
+    if (body.on_axis(node)) nodes.hold_on_edge(node);
   if (line && edges.empty()) hold_at_line(*line, time, grid, surface, nodes);
   for (int sweep = 0; sweep < sweeps; ++sweep) nodes.relax();
 
@@ -173,9 +192,10 @@ Seeds<D> reseeded(const Body<D>& body, const NodalVector* u, const Grid<D>& idea
     fixed = *std::min_element(
         seeds.surface.begin(), seeds.surface.end(),
         [&](const Vec<D>& a, const Vec<D>& b) { return line->gap(a, time) < line->gap(b, time); });
-  const Real stretch = std::pow(enclosed_volume<D>(surface.patches(), surface.points()) /
-                                    enclosed_volume<D>(numbered.facet, seeds.surface),
-                                1.0 / D);
+  if (grid.revolved) fixed[0] = 0;
+  const Real stretch = std::pow(enclosed_volume<D>(grid, surface.patches(), surface.points()) /
+                                    enclosed_volume<D>(grid, numbered.facet, seeds.surface),
+                                1.0 / body.space());
   for (Vec<D>& x : seeds.surface) x = fixed + stretch * (x - fixed);
   std::vector<char> on_boundary(grid.X.size(), 0);
   for (const auto& [key, number] : numbered.number)
@@ -183,8 +203,14 @@ Seeds<D> reseeded(const Body<D>& body, const NodalVector* u, const Grid<D>& idea
       at(seeds.nodes, key.front()) = at(seeds.surface, number);
       at(on_boundary, key.front()) = 1;
     }
-  place_inside(ideal, on_boundary, seeds.nodes);
+  if (grid.revolved) {
+    place_beside_axis(body, ideal, on_boundary, seeds.nodes);
+  } else {
+    place_inside(ideal, on_boundary, seeds.nodes);
+  }
   unfold(grid, on_boundary, seeds);
+  for (Index A = 0; A < body.size(); ++A)
+    if (body.on_axis(A)) at(seeds.nodes, A)[0] = 0;
   return seeds;
 }
 

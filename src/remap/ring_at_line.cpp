@@ -132,7 +132,8 @@ void hold_at_line(const ContactLine<D>& line, Real time, const Grid<D>& grid,
   if (wetted < least_fraction || wetted > 1 - least_fraction) return;
   const std::optional<Vec<D>> found = middle_of_wetted(line, time, grid, nodes);
   if (!found) return;
-  const Vec<D>& middle = *found;
+  Vec<D> middle = *found;
+  if (grid.revolved) middle[0] = 0;
   const Index pole = boundary_node_nearest_to<D>(middle, grid, nodes);
   const auto ring = ring_of<D>(wetted, rings_around(pole, grid, nodes), grid);
   if (!ring) return;

@@ -283,7 +283,8 @@ void Simulation<D>::refuse_impossible_surfaces() const {
   for (const std::size_t b : scene_.drops()) {
     const BodyTension& tension = *scene_.bodies[b].tension;
     const Real area = tension.area(state_.motion()), volume = tension.volume(state_.motion());
-    const Real ratio = isoperimetric_ratio<D>(area, volume);
+    const int space = scene_.system.bodies[b].space();
+    const Real ratio = isoperimetric_ratio(area, volume, space);
     if (tension.inscribed() || ratio >= 1 - bearable) continue;
     throw SolveError(fmt::format(
         "step {}, t = {:.9g}: body '{}' has the isoperimetric ratio {:.6f}: the {} {:.6g} of its "
@@ -291,7 +292,7 @@ void Simulation<D>::refuse_impossible_surfaces() const {
         "resolved; use form = \"balanced\", finer particles, or a reference shape nearer to the "
         "present one",
         state_.step, state_.time, scene_.system.bodies[b].name, ratio,
-        D == 3 ? "area" : "circumference", area, area / ratio, D == 3 ? "volume" : "area"));
+        space == 3 ? "area" : "circumference", area, area / ratio, space == 3 ? "volume" : "area"));
   }
 }
 

@@ -29,17 +29,17 @@ ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& g
   // cavity, the shape of cells serves their walls.
   const bool round = geometry.surface->smooth() && !is_hollow(geometry);
   const Mat<D> stretch = round ? mean_stretch(geometry.grid) : Mat<D>(Mat<D>::Identity());
+  const ParticleCloud<D> cloud(geometry.grid.X, geometry.grid.revolved);
   if (settings.support_spacings > 0)
-    return {geometry.grid.X, settings.support_spacings * mean_spacing(geometry.grid),
-            kernel_function, stretch};
+    return {cloud, settings.support_spacings * mean_spacing(geometry.grid), kernel_function,
+            stretch};
   if (settings.support_by == "cells")
-    return {geometry.grid.X,
-            supports_by_cells(geometry.grid, stretch, settings.support_factor.value()),
+    return {cloud, supports_by_cells(geometry.grid, stretch, settings.support_factor.value()),
             kernel_function, stretch};
   typename ParticleSet<D>::AdaptiveSupport rule;
   rule.factor = settings.support_factor.value();
   if (settings.support_rank > 0) rule.rank = settings.support_rank;
-  return {geometry.grid.X, rule, kernel_function, stretch};
+  return {cloud, rule, kernel_function, stretch};
 }
 
 /// Points at which the quality of shape functions is checked: particles, cell centres, and one

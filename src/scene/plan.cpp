@@ -192,11 +192,25 @@ void require_resolved_places(const Block& block, const Grid<D>& grid) {
   if (!lost.empty()) block.problem(block.has("centre") ? "centre" : "shape", lost);
 }
 
+/// Reports what bodies of revolution do not have.
+template <int D>
+void require_revolvable(const Block& block, const BodyPlan<D>& body) {
+  if (body.settings.integration != "q_scni")
+    block.problem("integration", fmt::format("is '{}', for a body of revolution; allowed is q_scni",
+                                             body.settings.integration));
+  if (body.material && body.material->carries_director())
+    block.problem("material",
+                  "a nematic is no body of revolution; allowed is it with dimension = 2 "
+                  "or 3");
+}
+
 template <int D>
 void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
   if (blocks.empty() && (!root.has("body") || root.in_order()))
     root.problem("body", "missing; a scene needs at least one [[body]]");
+  if (root.is_text("dimension") && blocks.size() > 1)
+    blocks[1].problem("", "bodies of revolution do not touch each other; allowed is one");
   std::set<std::string> names;
   for (const Block& block : blocks) {
     BodySettings settings = read<BodySettings>(block);
@@ -214,11 +228,12 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
                     "has no meaning beside [initial], which has the first positions");
     require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
     require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
-    Geometry<D> geometry = read_geometry<D>(block);
+    Geometry<D> geometry = read_geometry<D>(block, root.is_text("dimension"));
     if (block.in_order()) require_resolved_places(block, geometry.grid);
     const bool in_order = block.in_order();
     bodies.push_back({std::move(settings), std::move(geometry), nullptr, in_order});
     plan_material(block, bodies.back());
+    if (root.is_text("dimension")) require_revolvable(block, bodies.back());
     block.done();
   }
 }
@@ -228,7 +243,14 @@ template <int D>
 void plan_loads(const Block& root, const LoadEntry<D>& kind, std::set<std::string>& claims,
                 Plan<D>& plan) {
   std::set<std::string> identities;
+  const bool refused = !kind.revolves && root.is_text("dimension");
   for (const Block& block : root.tables(kind.name)) {
+    if (refused) {
+      block.problem("", fmt::format("[[{}]] does not know bodies of revolution; allowed is it with "
+                                    "dimension = 2 or 3",
+                                    kind.name));
+      continue;
+    }
     std::unique_ptr<Load<D>> load = kind.read(block);
     load->check(block, plan.bodies);
     load->prepare(plan.bodies);
@@ -416,6 +438,10 @@ RunSettings read_settings(const Block& root) {
 }  // namespace
 
 int scene_dimension(const SceneInput& input) {
+  if (input.root().is_text("dimension")) {
+    input.root().choice("dimension", {"axisymmetric"}, std::nullopt);
+    return 2;
+  }
   const auto dimension = input.root().integer("dimension", {2, 3}, std::nullopt);
   if (dimension != 2 && dimension != 3) input.check();
   return static_cast<int>(dimension);

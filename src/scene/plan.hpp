@@ -30,7 +30,8 @@ struct Plan : RunSettings {
   std::vector<std::unique_ptr<const Load<D>>> loads;  ///< in the order in which they are built
 };
 
-/// The dimension of a scene, 2 or 3. Throws InputError if the scene has none.
+/// The dimension of a scene, 2 or 3, of the grids of its bodies: 2 if it is axisymmetric. Throws
+/// InputError if the scene has none.
 int scene_dimension(const SceneInput& input);
 
 /// Reads the whole scene. Throws InputError with all problems of the input at once.

@@ -250,7 +250,9 @@ std::vector<KeyTable> key_tables() {
   std::vector<KeyTable> tables{
       {"top level",
        {{"title", "text", "", "", "\"\"", "heading of reports"},
-        {"dimension", "integer", "", "2 or 3", "required", "dimension of space"}}},
+        {"dimension", "integer or text", "", "2, 3 or \"axisymmetric\"", "required",
+         "dimension of space; \"axisymmetric\": bodies of revolution in the half plane, with x the "
+         "distance from the axis and y along it"}}},
       {"[units]",
        {{"system", "text", "", "", "\"SI\"",
          "SI, or the units of length, time and mass such as \"nm-ps-ag\""}}},

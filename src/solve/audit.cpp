@@ -21,7 +21,11 @@ Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
                            const Index I = body.first + A;
                            Eigen::Vector3d x = spatial(at(state.u, I));
                            x.head<D>() += at(body.particles.X(), A);
-                           const Eigen::Vector3d p = at(system.mass, I) * spatial(at(state.v, I));
+                           Eigen::Vector3d p = at(system.mass, I) * spatial(at(state.v, I));
+                           if (system.revolved()) {  // forces across the axis balance each other
+                             x.setZero();
+                             p[0] = 0;
+                           }
                            Eigen::Matrix<Real, 6, 1> both;
                            both.head<3>() = p;
                            both.tail<3>() = cross(x, p);
@@ -70,6 +74,10 @@ Ledger take_ledger(const System<D>& system, const State& state) {
   ledger.angular_momentum = both.template tail<3>();
   ledger.momentum_excess = ledger.momentum - state.books.momentum;
   ledger.angular_momentum_excess = ledger.angular_momentum - state.books.angular_momentum;
+  if (system.revolved()) {
+    ledger.momentum_excess[0] = 0;
+    ledger.angular_momentum_excess.setZero();
+  }
   ledger.impulses = state.books.impulses;
   ledger.angular_impulses = state.books.angular_impulses;
   return ledger;

@@ -29,6 +29,8 @@ struct System {
   FollowedParticles followed;  ///< by steps on several processes
 
   Index size() const { return static_cast<Index>(mass.size()); }
+  /// True if the bodies are of revolution. They can move along the axis (y) only as rigid bodies.
+  bool revolved() const { return !bodies.empty() && bodies.front().geometry.grid.revolved; }
   /// Adds an unknown field with initial value zero; returns its number in Motion and Forces. If two
   /// terms add the same field, it has the sum of their capacities. Throws std::logic_error if their
   /// descriptions differ.

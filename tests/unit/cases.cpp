@@ -8,6 +8,7 @@
 #include "meniscus/physics/surface_registry.hpp"
 #include "meniscus/solve/stepper.hpp"
 #include "mesh_support.hpp"
+#include "revolved_cases.hpp"
 #include "support.hpp"
 
 #include <fmt/core.h>
@@ -209,6 +210,8 @@ std::vector<Case> all_cases() {
                          moving(D) + example_solid(),
                      {true, true},
                      true});
+  if (D == 2)
+    for (Case& c : revolved_cases()) cases.push_back(std::move(c));
   return cases;
 }
 

@@ -190,8 +190,8 @@ Real residual_of(Geometry<D> geometry, bool balanced, Real theta) {
       balanced ? balanced_surface_tension<D>(*body, 1) : weak_surface_tension<D>(*body, 1, 3);
   const NodalVectors force = test::sum_of(test::force_of(*bulk, u), 1, test::force_of(*surface, u));
   const Real R = 1 + stretch;
-  return capillary_residual<D>(force, 1, D == 3 ? 4 * pi * R * R : 2 * pi * R,
-                               D == 3 ? 4 * pi / 3 * R * R * R : pi * R * R);
+  return capillary_residual(force, 1, D == 3 ? 4 * pi * R * R : 2 * pi * R,
+                            D == 3 ? 4 * pi / 3 * R * R * R : pi * R * R, D);
 }
 
 TEST(BalancedSurfaceTension, ABallInItsLaplacePressureIsAtRest) {

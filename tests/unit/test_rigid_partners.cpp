@@ -159,7 +159,7 @@ TEST(RigidPartner, RefusesNonsense) {
   EXPECT_THROW_WITH(rigid_half_space<3>({PairKernel::planar}, 1, o, Vec<3>::UnitX()), InputError,
                     "in 3 dimensions cannot have the kernel 'planar'; allowed is 'space'");
   EXPECT_THROW_WITH(
-      rigid_half_space<2>({}, 1, Vec<2>::Zero(), Vec<2>::UnitX()), InputError,
+      rigid_polygons({}, 1, {{Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(0, 1)}}), InputError,
       "in 2 dimensions cannot have the kernel 'space'; allowed is 'integrated' or 'planar'");
   EXPECT_THROW_WITH(rigid_ball<3>({}, 1, o, 0), InputError,
                     "the radius of a rigid ball must be > 0, not 0");

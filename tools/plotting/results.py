@@ -14,8 +14,48 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import meniscus  # noqa: E402  pylint: disable=wrong-import-position
 
 
+class Section:
+    """A body of revolution with the other half of its section: its particles, then their images beyond
+    the axis."""
+
+    def __init__(self, half):
+        self.half = half
+        self.X = np.concatenate([half.X, half.X * [-1, 1]])
+        self.cells = np.concatenate([half.cells, half.cells + len(half)])
+        self.surface = np.concatenate([half.surface, half.surface[:, ::-1] + len(half)])
+        circle = 2 * np.pi * np.maximum(half.X[:, 0], half.spacing / 4)
+        self.volume = np.tile(half.volume / circle, 2)  # areas of the section
+
+    def __getattr__(self, name):
+        return getattr(self.half, name)
+
+    def __len__(self):
+        return len(self.half)
+
+
 class Results(meniscus.Run):
-    """A run, its frames worth showing and what its scene expects."""
+    """A run, its frames worth showing and what its scene expects. Bodies of revolution are shown by their
+    whole section."""
+
+    def __init__(self, folder):
+        super().__init__(folder)
+        if self.axisymmetric:
+            sections = {}
+            self.epochs = [
+                [sections.setdefault(id(body), Section(body)) for body in bodies] for bodies in self.epochs
+            ]
+            self.bodies = self.epochs[0]
+
+    def field(self, frame, name, body):
+        values = super().field(frame, name, body)
+        if not self.axisymmetric:
+            return values
+        image = values.copy()
+        if values.ndim > 1 and values.shape[1] == 3:
+            image[:, 0] *= -1
+        elif values.ndim > 1 and values.shape[1] == 9:
+            image[:, [1, 3]] *= -1  # xy and yx
+        return np.concatenate([values, image])
 
     def spread_frames(self, count):
         """First, last, and frames between them at equal lengths of the way that particles have

@@ -212,8 +212,9 @@ bool register_shape() {
 /// the same table. The keys of placement.hpp place it. `imperfection` (rms length, default 0) with
 /// `imperfection_seed` displaces it (imperfection.hpp). `jitter` (fraction of the shortest edge,
 /// default 0) with `jitter_seed` moves the interior nodes. If the numbers make no body, a problem
-/// is noted and a coarse box is returned instead. The caller calls block.done().
+/// is noted and a coarse box is returned instead. The caller calls block.done(). If `revolved`, it
+/// is the half plane of a body of revolution, see half_plane().
 template <int D>
-Geometry<D> read_geometry(const Block& block);
+Geometry<D> read_geometry(const Block& block, bool revolved = false);
 
 }  // namespace meniscus

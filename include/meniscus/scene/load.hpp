@@ -2,7 +2,8 @@
 // Loads: force terms and measures of the bodies of a scene. Each kind of load has a table [[name]].
 //
 // A load has its own file in src/features, in an anonymous namespace. It is a struct MyLoad<D> with
-// the members that rows() reads, check(), build(), and an example. The file ends with
+// the members that rows() reads, check(), build(), and an example. If it knows bodies of
+// revolution, it says `static constexpr bool revolves = true`. The file ends with
 //   const bool registered = register_load<MyLoad>("my_load", Stage::volume, "short description");
 // No other code refers to the load by name.
 #pragma once
@@ -90,6 +91,7 @@ struct LoadEntry {
   std::string_view name;  ///< name of its tables: [[name]]
   std::string_view example;
   Stage stage;
+  bool revolves;  ///< knows bodies of revolution
   std::vector<KeyTable> (*keys)();
   std::unique_ptr<Load<D>> (*read)(
       const Block&);  ///< reads the keys of rows(); check() does the rest
@@ -109,21 +111,24 @@ bool register_load_in(std::string_view name, Stage stage, std::string_view meani
   static const std::string heading = "[[" + std::string(name) + "]]: " + std::string(meaning);
   static const std::string example =
       "[[" + std::string(name) + "]]\n" + std::string(example_of<L>());
-  LoadEntry<D> entry{name, example_of<L>(), stage, nullptr, nullptr};
-  entry.keys = [] {
-    std::vector<KeyTable> tables{{heading, key_texts(L::rows()), example}};
-    if constexpr (requires { L::inner_tables(); })
-      for (KeyTable& table : L::inner_tables()) tables.push_back(std::move(table));
-    return tables;
-  };
-  entry.read = [](const Block& block) -> std::unique_ptr<Load<D>> {
-    auto load = std::make_unique<L>();
-    for (const auto& row : L::rows()) row.read(*load, block);
-    if constexpr (requires { load->read_inner(block); }) load->read_inner(block);
-    load->place = block.place();
-    return load;
-  };
-  return register_entry(std::move(entry));
+  LoadEntry<D> entry{name, example_of<L>(), stage, requires {L::revolves;
+}
+, nullptr, nullptr
+};  // namespace meniscus
+entry.keys = [] {
+  std::vector<KeyTable> tables{{heading, key_texts(L::rows()), example}};
+  if constexpr (requires { L::inner_tables(); })
+    for (KeyTable& table : L::inner_tables()) tables.push_back(std::move(table));
+  return tables;
+};
+entry.read = [](const Block& block) -> std::unique_ptr<Load<D>> {
+  auto load = std::make_unique<L>();
+  for (const auto& row : L::rows()) row.read(*load, block);
+  if constexpr (requires { load->read_inner(block); }) load->read_inner(block);
+  load->place = block.place();
+  return load;
+};
+return register_entry(std::move(entry));
 }
 
 /// Registers the load L<D> in 2D and 3D.

@@ -3,6 +3,7 @@
 // cells and facets give its rows (RKPM note 5.6).
 #include "body/body.hpp"
 #include "body/grid/cell_integrals.hpp"
+#include "body/grid/folded_cells.hpp"
 #include "body/sums_over_ranks.hpp"
 #include "meniscus/error.hpp"
 #include "numbers/dense.hpp"
@@ -225,6 +226,11 @@ void append_rows(const Body<D>& body, OwnItems cells, CellRule<D>& rule,
 
 template <int D>
 CellRows<D>::CellRows(const Body<D>& body, OwnItems cells) : shape_integral(body.size()) {
+  if constexpr (D == 2)
+    if (body.geometry.grid.revolved) {
+      append_folded_rows(body, cells, rule, shape_integral);
+      return;
+    }
   append_rows(body, cells, rule, shape_integral);
 }
 

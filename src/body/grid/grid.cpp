@@ -136,6 +136,9 @@ void find_boundary(Grid<D>& grid) {
     facet.side = static_cast<int>(k) % sides_per_cell;
     const auto nodes = SideNodes<D>(at(grid.cells, facet.cell), facet.side).node;
     for (std::size_t a = 0; a < nodes.size(); ++a) facet.nodes[a] = nodes[a ^ (a >> 1)];
+    if (grid.revolved && std::all_of(facet.nodes.begin(), facet.nodes.end(),
+                                     [&](Index node) { return at(grid.X, node)[0] == 0; }))
+      continue;  // on the axis
     grid.facets.push_back(facet);
   }
 }
@@ -222,30 +225,40 @@ std::vector<TabulatedPoint<D>> tabulated(const TensorRule<D>& rule) {
   return points;
 }
 
-}  // namespace
-
-template <int D>
-Real volume(const Grid<D>& grid) {
-  // det J has degree 2 per direction, and 2 D - 1 in curved cells.
-  const TensorRule<D> straight = tensor_rule<D>(2), curved = tensor_rule<D>(D);
+/// Sum of the cells, each point weighted by weight(X).
+template <int D, class F>
+Real sum_over_cells(const Grid<D>& grid, F&& weight) {
+  // det J has degree 2 per direction, and 2 D - 1 in curved cells; circles have degree 2.
+  const TensorRule<D> straight = tensor_rule<D>(2),
+                      curved = tensor_rule<D>(grid.revolved ? D + 1 : D);
   const auto of_straight = tabulated<D>(straight), of_curved = tabulated<D>(curved);
   return parallel_sum(grid.cell_count(), 0.0, [&](Index e) {
     const bool bulges = grid.bulge(e) != nullptr;
     Real sum = 0;
     if (is_simplex<D>(at(grid.cells, e))) {
       for_gauss_points(grid, e, bulges ? curved : straight,
-                       [&](const Vec<D>&, Real weight) { sum += weight; });
+                       [&](const Vec<D>& X, Real w) { sum += w * weight(X); });
       return sum;
     }
     const CellMap<D> map(grid, e);
-    for (const auto& p : bulges ? of_curved : of_straight) sum += p.w * determinant<D>(map(p).J);
+    for (const auto& p : bulges ? of_curved : of_straight) {
+      const CellPoint<D, D> point = map(p);
+      sum += p.w * determinant<D>(point.J) * weight(point.X);
+    }
     return sum;
   });
 }
 
+}  // namespace
+
+template <int D>
+Real volume(const Grid<D>& grid) {
+  return sum_over_cells(grid, [&](const Vec<D>& X) { return circle(grid, X); });
+}
+
 template <int D>
 Real mean_spacing(const Grid<D>& grid) {
-  const Real V = volume(grid) / grid.cell_count();
+  const Real V = sum_over_cells(grid, [](const Vec<D>&) { return 1.0; }) / grid.cell_count();
   // A cube consists of six tetrahedra, a square of two triangles.
   constexpr Real simplices = D == 3 ? 6 : 2;
   return std::pow(is_simplex<D>(grid.cells.front()) ? simplices * V : V, 1.0 / D);
@@ -317,6 +330,8 @@ Mat<D> mean_stretch(const Grid<D>& grid) {
     const Mat<D> J = cell_point<D>(corners, grid.bulge(e), Vec<D>::Zero()).J;
     squares += J * J.transpose();
   }
+  if (grid.revolved)
+    squares = Mat<D>(squares.diagonal().asDiagonal());  // the mirrored half counts, too
   const Mat<D> U = square_root<D>(squares / std::pow(determinant<D>(squares), 1.0 / D));
   return U.isApprox(Mat<D>::Identity(), 1e-9) ? Mat<D>(Mat<D>::Identity()) : U;
 }
@@ -366,7 +381,7 @@ CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
   for (Index e = 0; e < grid.cell_count(); ++e)
     for_gauss_points(grid, e, rule, [&](const Vec<D>& X, Real weight) {
       points.X.push_back(X);
-      points.weight.push_back(weight);
+      points.weight.push_back(weight * circle(grid, X));
     });
   return points;
 }

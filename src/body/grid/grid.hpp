@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,6 +51,9 @@ struct Grid {
   /// body.
   std::vector<Bulge<D>> bulges;
   std::vector<Index> bulge_of;  ///< [cell] number of its bulge, or -1
+  /// 2D: the grid is the half plane x >= 0 of a body of revolution about the axis x = 0. Its facets
+  /// are those of the body, so none lies on the axis. See half_plane().
+  bool revolved = false;
 
   Index node_count() const { return static_cast<Index>(X.size()); }
   Index cell_count() const { return static_cast<Index>(cells.size()); }
@@ -64,6 +68,19 @@ struct Grid {
     return &at(bulges, at(bulge_of, cell));
   }
 };
+
+/// What a part of the grid at X counts in the volume or area of the body: the length 2 pi x of its
+/// circle about the axis in a body of revolution, else 1.
+template <int D>
+Real circle(const Grid<D>& grid, const Vec<D>& X) {
+  return grid.revolved ? 2 * std::numbers::pi * X[0] : 1;
+}
+
+/// The dimension of the space in which the body is: 3 for a body of revolution, else D.
+template <int D>
+int space_dimension(const Grid<D>& grid) {
+  return grid.revolved ? 3 : D;
+}
 
 /// -1 or +1: coordinate xi_k of corner a of the reference cell [-1, 1]^D.
 constexpr Real corner_sign(int a, int k) {
@@ -154,7 +171,7 @@ struct NodeCells {
 template <int D>
 NodeCells cells_of_nodes(const Grid<D>& grid);
 
-/// Volume (2D: area) of the cells, exact for their maps.
+/// Volume (2D: area) of the body, exact for the maps of its cells.
 template <int D>
 Real volume(const Grid<D>& grid);
 

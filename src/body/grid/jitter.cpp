@@ -36,6 +36,7 @@ bool move_node(Grid<D>& grid, Index i, Real reach, std::span<const NodeCells::En
   const Vec<D> place = at(grid.X, i);
   for (int draw = 0; draw < 100; ++draw) {
     for (int k = 0; k < D; ++k) at(grid.X, i)[k] = place[k] + reach * symmetric_uniform(bits);
+    if (grid.revolved && place[0] == 0) at(grid.X, i)[0] = 0;  // it stays on the axis
     if (std::none_of(cells.begin(), cells.end(),
                      [&](const auto& e) { return find_fold(grid, e.cell).has_value(); }))
       return true;

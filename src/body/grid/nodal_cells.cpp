@@ -9,6 +9,8 @@
 
 #include <fmt/core.h>
 
+#include <numbers>
+
 namespace meniscus {
 
 namespace {
@@ -49,6 +51,7 @@ struct MomentsAboutNode {
     w_arm.fill(Lanes::zero());
     w_arm_arm.fill(w_arm);
     for_volume_points<D>(grid, octant, [&](const std::array<Lanes, D>& X, Lanes w, int) {
+      if (grid.revolved) w *= 2 * std::numbers::pi * X[0];
       w_sum += w;
       for (std::size_t i = 0; i < D; ++i) {
         const Lanes of_i = w * (X[i] - Xn[static_cast<int>(i)]);
@@ -92,7 +95,7 @@ template <int D>
 NodalCells<D>::NodalCells(const Grid<D>& grid)
     : grid_(&grid),
       octants_(cells_of_nodes(grid)),
-      equal_cells_(equal_cells(grid)),
+      equal_cells_(grid.revolved ? std::vector<Index>(grid.cells.size(), -1) : equal_cells(grid)),
       boundary_sides_(grid.cells.size(), 0),
       volume_(grid.X.size()),
       centroid_(grid.X.size()),

@@ -12,11 +12,12 @@ namespace meniscus {
 
 /// Quadrature of one nodal cell and of its closed boundary, exact for quadratic polynomials under
 /// the maps of the cells. An octant has 3 points per direction, or D + 2 in directions in which its
-/// cell is curved; its facets likewise. Buffers are kept between nodes.
+/// cell is curved; its facets likewise. Weights are those of the grid: in a body of revolution
+/// without the circles of the points. Buffers are kept between nodes.
 template <int D>
 struct CellQuadrature {
   std::vector<Vec<D>> volume_X;
-  std::vector<Real> volume_w;    ///< weights; sum = volume of the nodal cell
+  std::vector<Real> volume_w;    ///< sum = volume of the nodal cell in the grid
   std::vector<Vec<D>> facet_X;   ///< points of the octant facets on the cell boundary
   std::vector<Vec<D>> facet_dA;  ///< outward normal times weight; sum = 0
   /// Index of the first point on the boundary of the body; the points before it lie between two
@@ -82,7 +83,9 @@ struct CellSamples {
 template <int D>
 struct FourFacetPoints;  // nodal_cells_samples
 
-/// Volumes, centroids, covariances and quadratures of the nodal cells of a grid, by node number.
+/// Volumes, centroids, covariances and quadratures of the nodal cells of a grid, by node number. In
+/// a body of revolution, nodal cells are rings: volumes, centroids and covariances are weighted by
+/// circles.
 template <int D>
 class NodalCells {
  public:

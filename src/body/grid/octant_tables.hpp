@@ -15,10 +15,11 @@
 
 namespace meniscus {
 
-/// Points per direction: X X^T det J has degree 4, and 2 D + 3 where the cell is curved.
+/// Points per direction: X X^T det J has degree 4, and 2 D + 3 where the cell is curved. With the
+/// circle of a body of revolution, which bit D of `curved` says, the degrees are 5 and 2 D + 5.
 template <int D>
 int points_along(int k, unsigned curved) {
-  return (curved >> k) & 1 ? D + 2 : 3;
+  return (curved >> k) & 1 ? D + 2 + static_cast<int>((curved >> D) & 1) : 3;
 }
 
 /// Multilinear shape functions of the corners at one reference point.
@@ -84,12 +85,13 @@ class OctantTable {
  public:
   using Points = std::vector<FourTabulatedPoints<D>>;
 
-  /// The table of cells that are curved in the directions k for which bit k of `curved` is set.
+  /// The table of cells that are curved in the directions k for which bit k of `curved` is set. In
+  /// 2D, bit D is set for bodies of revolution.
   static const OctantTable& instance(unsigned curved) {
     static constexpr auto tables = []<unsigned... c>(std::integer_sequence<unsigned, c...>) {
       return std::array{&made<c>...};
     }
-    (std::make_integer_sequence<unsigned, 1u << D>());
+    (std::make_integer_sequence<unsigned, 1u << (D == 2 ? D + 1 : D)>());
     return at(tables, curved)();
   }
   const Points& volume(int corner) const { return at(volume_, corner); }
@@ -167,7 +169,12 @@ class SimplexTable {
     int k = 0;
   };
 
-  static const SimplexTable& instance(bool curved) { return curved ? made<D + 2>() : made<3>(); }
+  static const SimplexTable& instance(bool curved, bool revolved) {
+    if (!curved) return made<3>();
+    if constexpr (D == 2)
+      if (revolved) return made<D + 3>();
+    return made<D + 2>();
+  }
   const Points& volume(int i) const { return at(volume_, i); }
   /// The facet between the parts at corners i and j, as a facet of the part at the lower corner.
   const Side& between(int i, int j) const {
@@ -407,7 +414,9 @@ template <int D>
 class CellMap {
  public:
   CellMap(const Grid<D>& grid, Index cell)
-      : bulge_(grid.bulge(cell)), simplex_(is_simplex<D>(at(grid.cells, cell))) {
+      : bulge_(grid.bulge(cell)),
+        simplex_(is_simplex<D>(at(grid.cells, cell))),
+        revolved_(grid.revolved) {
     for (int a = 0; a < corners; ++a)
       at(corner_, a) = lanes_of(at(grid.X, at(at(grid.cells, cell), a)));
     if (!bulge_) return;
@@ -418,11 +427,12 @@ class CellMap {
     }
   }
   const OctantTable<D>& table() const {
-    return OctantTable<D>::instance(bulge_ ? bulge_->curved : 0);
+    const unsigned revolved = revolved_ ? 1u << D : 0;
+    return OctantTable<D>::instance((bulge_ ? bulge_->curved : 0) | revolved);
   }
   /// The table of a simplex; null for other cells.
   const SimplexTable<D>* simplex() const {
-    return simplex_ ? &SimplexTable<D>::instance(bulge_ != nullptr) : nullptr;
+    return simplex_ ? &SimplexTable<D>::instance(bulge_ != nullptr, revolved_) : nullptr;
   }
   CellPoint<D, D> operator()(const TabulatedPoint<D>& p) const {
     Lanes X = Lanes::zero();
@@ -474,7 +484,7 @@ class CellMap {
   std::array<Lanes, Bulge<D>::mode_count> deviation_;  // deviations of the modes that are not zero
   std::array<int, Bulge<D>::mode_count> mode_;
   int modes_ = 0;
-  bool simplex_;
+  bool simplex_, revolved_;
 };
 
 /// Column k of cof J: a normal of the surface xi_k = const, whose length is the area ratio.

@@ -33,6 +33,25 @@ void add_squares(const std::array<Tensor<Lanes>, D>& S, const std::array<Lanes, 
   }
 }
 
+template <int D>
+struct CellRule;
+template <int D>
+struct PointRule;
+
+/// The functions of rules of bodies of revolution.
+void gather_folded(const CellRule<2>& rule, Index cell, const NodalVector* field, Tensor<Lanes>& H);
+void scatter_folded(const CellRule<2>& rule, Index cell, const Tensor<Lanes>& P,
+                    NodalVector* force);
+void add_folded_diagonal(const CellRule<2>& rule, Index cell, const std::array<Tensor<Lanes>, 2>& S,
+                         NodalVector* sum);
+
+void gather_folded(const PointRule<2>& rule, Index group, const NodalVector* field,
+                   Tensor<Lanes>& H);
+void scatter_folded(const PointRule<2>& rule, Index group, const Tensor<Lanes>& P,
+                    NodalVector* force);
+void add_folded_diagonal(const PointRule<2>& rule, Index group,
+                         const std::array<Tensor<Lanes>, 2>& S, NodalVector* sum);
+
 /// The part of the coefficients of the next row that a pass prefetches. gather() and scatter() of
 /// one row follow each other: gather() reads from memory, scatter() from cache, and each prefetches
 /// a part, so that memory access and arithmetic overlap. A pass alone prefetches the whole.
@@ -41,13 +60,20 @@ enum class Prefetch : std::uint8_t { first, second, whole };
 /// Nodal cells with linear moments, "q_scni" (RKPM note 5.3). In cell L the gradient of a field is
 /// sum_A f_A (a_A + B_A xi). It is evaluated at D + 1 points xi_q of equal weight that reproduce
 /// volume, centroid and covariance of the cell. A group is a cell. Rows of other ranks are empty.
+///
+/// In a body of revolution, H_22 = u_0 / X_0 is the stretch of circles (axisymmetry note 3). Rows
+/// are folded (PointRows): `coefficient` is for the component along the axis, `odd` for that across
+/// it.
 template <int D>
 struct CellRule {
   std::vector<Offset> start{0};    ///< [cell + 1]
   std::vector<Index> particle;     ///< [entry]
   UnsetVector<Lanes> coefficient;  ///< [entry][K]: (a_AK, B_AK0, B_AK1, B_AK2)
-  AlignedVector<Lanes> point;      ///< [cell][M]: xi_qM, a lane per stress point q
-  std::vector<Real> volume;        ///< [cell]
+  /// [entry][K], and [entry][2] of the stretch of circles: (h_A, Bh_A0, Bh_A1, 0); empty unless the
+  /// body is of revolution
+  UnsetVector<Lanes> odd;
+  AlignedVector<Lanes> point;  ///< [cell][M]: xi_qM, a lane per stress point q
+  std::vector<Real> volume;    ///< [cell]
 
   Index groups() const { return static_cast<Index>(volume.size()); }
   Index points_per_group() const { return D + 1; }
@@ -61,6 +87,8 @@ struct CellRule {
   /// H_iK = f_i,K at the quadrature points of a cell.
   [[gnu::always_inline]] void gather(Index cell, const NodalVector* field, Tensor<Lanes>& H,
                                      Prefetch ahead = Prefetch::first) const {
+    if constexpr (D == 2)
+      if (!odd.empty()) return gather_folded(*this, cell, field, H);
     Lanes moment[D][D];
     for (auto& row : moment)
       for (auto& m : row) m = Lanes::zero();
@@ -84,6 +112,8 @@ struct CellRule {
   /// added up at the end.
   [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P, NodalVector* force,
                                       Prefetch ahead = Prefetch::second) const {
+    if constexpr (D == 2)
+      if (!odd.empty()) return scatter_folded(*this, cell, P, force);
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     Lanes moment[D][D];  // (sum P_iK, sum P_iK xi_0, ...) over the points
     for (int i = 0; i < D; ++i)
@@ -104,6 +134,8 @@ struct CellRule {
   /// sum_A,i += sum_q S_i,KL(q) g_AK(q) g_AL(q) with the gradients g of shape functions. This is
   /// the diagonal of the operator gather(), P_iK = S_i,KL H_iL, scatter().
   void add_diagonal(Index cell, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
+    if constexpr (D == 2)
+      if (!odd.empty()) return add_folded_diagonal(*this, cell, S, sum);
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     for_entries(cell, Prefetch::first, [&](Index A, const std::array<Lanes, D>& coefficients) {
       std::array<Lanes, D> g;
@@ -123,7 +155,8 @@ struct CellRule {
   Offset pairs() const { return start.back(); }
   std::size_t bytes() const {
     return start.size() * sizeof(Offset) + particle.size() * sizeof(Index) +
-           (coefficient.size() + point.size()) * sizeof(Lanes) + volume.size() * sizeof(Real);
+           (coefficient.size() + odd.size() + point.size()) * sizeof(Lanes) +
+           volume.size() * sizeof(Real);
   }
 
  private:
@@ -152,7 +185,7 @@ struct CellRule {
 
 /// Quadrature points with gradients of shape functions: Gauss points, or the particles themselves.
 /// A group has `per_group` consecutive points (one if neighbouring points have different material
-/// parameters).
+/// parameters). In a body of revolution, H_22 = u_0 / X_0, see CellRule.
 template <int D>
 struct PointRule {
   static constexpr Index most_per_group = 4;
@@ -176,6 +209,8 @@ struct PointRule {
 
   [[gnu::always_inline]] void gather(Index group, const NodalVector* field,
                                      Tensor<Lanes>& H) const {
+    if constexpr (D == 2)
+      if (rows.folded) return gather_folded(*this, group, field, H);
     H = Tensor<Lanes>::zero();
     for (int lane = 0; lane < count(group); ++lane) {
       const auto column = gradient_at(rows, group * per_group + lane, field);
@@ -186,6 +221,8 @@ struct PointRule {
 
   [[gnu::always_inline]] void scatter(Index group, const Tensor<Lanes>& P,
                                       NodalVector* force) const {
+    if constexpr (D == 2)
+      if (rows.folded) return scatter_folded(*this, group, P, force);
     std::array<Lanes, 4> column[D];
     for (int K = 0; K < D; ++K) column[K] = by_lane(P(0, K), P(1, K), P(2, K));
     const std::ptrdiff_t ahead = distance_to_next(group);
@@ -205,6 +242,8 @@ struct PointRule {
 
   /// See CellRule::add_diagonal().
   void add_diagonal(Index group, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
+    if constexpr (D == 2)
+      if (rows.folded) return add_folded_diagonal(*this, group, S, sum);
     for (int lane = 0; lane < count(group); ++lane) {
       const Index q = group * per_group + lane;
       for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
@@ -231,6 +270,9 @@ struct PointRule {
     return rows.bytes() + point_weight.size() * sizeof(Real) + point_owner.size() * sizeof(Index);
   }
 
+  /// Number of points of a group.
+  int count(Index group) const { return std::min(per_group, rows.size() - group * per_group); }
+
  private:
   // scatter() reads the gradients of a group from cache, and prefetches the gradients of the next
   // group.
@@ -238,7 +280,6 @@ struct PointRule {
     const Index first = group * per_group;
     return (at(rows.start, first + count(group)) - at(rows.start, first)) * D;
   }
-  int count(Index group) const { return std::min(per_group, rows.size() - group * per_group); }
 };
 
 }  // namespace meniscus

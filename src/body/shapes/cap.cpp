@@ -14,14 +14,11 @@
 namespace meniscus {
 namespace {
 
-/// Radius of the sphere (2D: circle) of a cap with the volume of the unit ball (disk).
-template <int D>
-Real radius_of_sphere(Real theta) {
+/// Radius of the sphere (in the plane: circle) of a cap with the volume of the unit ball (disk).
+Real radius_of_sphere(Real theta, bool in_space) {
   const Real c = std::cos(theta);
-  if constexpr (D == 3)
-    return std::cbrt(4 / ((2 + c) * (1 - c) * (1 - c)));
-  else
-    return std::sqrt(std::numbers::pi / (theta - std::sin(theta) * c));
+  return in_space ? std::cbrt(4 / ((2 + c) * (1 - c) * (1 - c)))
+                  : std::sqrt(std::numbers::pi / (theta - std::sin(theta) * c));
 }
 
 /// Places of the upper half of the unit ball have the height h Z, and the distance from the axis is
@@ -33,9 +30,8 @@ Real radius_of_sphere(Real theta) {
 /// To lay the base on a ball of radius B, places at the distance P from the axis of the unit ball
 /// sink by B - sqrt(B^2 - a^2 P^2); in a cavity, B < 0, they rise.
 template <int D>
-SmoothMap<D> cap_map(Real theta, Real size, Real B, std::vector<Real> centre) {
-  const Real R = size * radius_of_sphere<D>(theta), h = R * (1 - std::cos(theta)),
-             a = R * std::sin(theta);
+SmoothMap<D> cap_map(Real theta, Real R, Real B, std::vector<Real> centre) {
+  const Real h = R * (1 - std::cos(theta)), a = R * std::sin(theta);
   if (B != 0 && !(a < 0.99 * std::abs(B)))
     throw InputError(
         fmt::format("the base of the cap has the radius {:g}, too large for a wall of radius {:g}; "
@@ -71,11 +67,19 @@ struct Cap {
   Real radius = 1, contact_angle = 90, wall_radius = 0;
   int core = D == 3 ? 10 : 18, layers = D == 3 ? 5 : 9;
   std::vector<Real> centre = std::vector<Real>(D, 0.0);
+  bool in_space = D == 3;  // also as a body of revolution
 
   static Rows<Cap> rows() {
-    return {real_row("radius", &Cap::radius, dimension::length, range::positive,
-                     D == 3 ? "radius of the ball with the volume of the cap"
-                            : "radius of the disk with the area of the segment"),
+    Row<Cap> radius =
+        real_row("radius", &Cap::radius, dimension::length, range::positive,
+                 D == 3 ? "radius of the ball with the volume of the cap"
+                        : "radius of the disk with the area of the segment; axisymmetric: of the "
+                          "ball with the volume of the cap");
+    radius.read = [read = radius.read](Cap& cap, const Block& block) {
+      read(cap, block);
+      cap.in_space = D == 3 || block.units().of_whole_bodies();
+    };
+    return {radius,
             real_row("contact_angle", &Cap::contact_angle, dimension::none, {5, 155},
                      "angle in degrees between the flat and the round face, inside"),
             real_row("wall_radius", &Cap::wall_radius, dimension::length, range::any,
@@ -96,11 +100,12 @@ struct Cap {
     if (core % 2 != 0)
       throw InputError("a cap has an even number of cells along the core; use a multiple of 2");
     const Vec<D> origin = Vec<D>::Zero(), up = Vec<D>::Unit(D - 1);
+    const Real theta = contact_angle * std::numbers::pi / 180;
     return make_geometry<D>(
         upper_half<D>(cubed_ball<D>(core, layers)),
         {SurfacePatch<D>::sphere(origin, 1).named("round"),
          SurfacePatch<D>::plane(origin, -up).named("flat")},
-        false, cap_map<D>(contact_angle * std::numbers::pi / 180, radius, wall_radius, centre));
+        false, cap_map<D>(theta, radius * radius_of_sphere(theta, in_space), wall_radius, centre));
   }
 };
 

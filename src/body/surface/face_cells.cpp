@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 
@@ -47,14 +48,19 @@ class Chooser {
 template <int D>
 void take_means(const PointRows<D>& points, FaceCells<D>& cells) {
   PointRows<D>& mean = cells.mean;
+  mean.folded = points.folded;
   for (Index k = 0; k < cells.size(); ++k) {
-    std::map<Index, Real> sum;
+    std::map<Index, std::array<Real, 2>> sum;  // the values, and those of the odd component
     for (Offset q = at(cells.begin, k); q < at(cells.begin, k + 1); ++q)
-      for (Offset e = at(points.start, q); e < at(points.start, q + 1); ++e)
-        sum[at(points.particle, e)] += at(cells.share, q) * at(points.value, e);
-    for (const auto& [particle, value] : sum) {
+      for (Offset e = at(points.start, q); e < at(points.start, q + 1); ++e) {
+        auto& [value, odd] = sum[at(points.particle, e)];
+        value += at(cells.share, q) * at(points.value, e);
+        if (points.folded) odd += at(cells.share, q) * at(points.odd_value, e);
+      }
+    for (const auto& [particle, values] : sum) {
       mean.particle.push_back(particle);
-      mean.value.push_back(value);
+      mean.value.push_back(values[0]);
+      if (points.folded) mean.odd_value.push_back(values[1]);
     }
     mean.start.push_back(static_cast<Offset>(mean.particle.size()));
   }
@@ -74,7 +80,8 @@ FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice) {
   FaceCells<D> cells;
   CellQuadrature<D> q;
   for (const Index node : boundary_nodes(grid)) {
-    body.cells.quadrature(node, q);
+    body.cells.boundary_points(node, q);
+    for (std::size_t p = 0; p < q.facet_X.size(); ++p) q.facet_dA[p] *= circle(grid, q.facet_X[p]);
     std::map<int, std::vector<std::size_t>> points;  // [patch] numbers of its points
     for (const auto& part : q.body_facets) {
       const Facet<D>& facet = facet_at(grid, part.cell, part.side);

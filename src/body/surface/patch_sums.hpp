@@ -5,6 +5,7 @@
 #include "kernel/row_sums.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace meniscus {
 
@@ -83,9 +84,17 @@ template <int D>
 template <class T>
 T SurfacePatches<D>::group_area(const Corners<T>& place, T* gradient) const {
   return group_sum(place, gradient,
-                   [](Real weight, const Vector<T>&, const Vector<T>& m, Vector<T>& by_place,
-                      Vector<T>& by_normal) -> T {
+                   [this](Real weight, const Vector<T>& p, const Vector<T>& m, Vector<T>& by_place,
+                          Vector<T>& by_normal) -> T {
                      const T length = sqrt(dot(m, m));
+                     if (revolved_) {
+                       const Real turn = 2 * std::numbers::pi * weight;
+                       by_place.fill(T(0.0));
+                       by_place[0] = turn * length;
+                       for (int i = 0; i < D; ++i)
+                         at(by_normal, i) = turn * p[0] * at(m, i) / length;
+                       return turn * p[0] * length;
+                     }
                      for (int i = 0; i < D; ++i) {
                        at(by_place, i) = T(0.0);
                        at(by_normal, i) = weight * at(m, i) / length;
@@ -98,8 +107,16 @@ template <int D>
 template <class T>
 T SurfacePatches<D>::group_volume(const Corners<T>& place, T* gradient) const {
   return group_sum(place, gradient,
-                   [](Real weight, const Vector<T>& p, const Vector<T>& m, Vector<T>& by_place,
-                      Vector<T>& by_normal) -> T {
+                   [this](Real weight, const Vector<T>& p, const Vector<T>& m, Vector<T>& by_place,
+                          Vector<T>& by_normal) -> T {
+                     if (revolved_) {
+                       const T disk = std::numbers::pi * weight * p[0] * p[0];
+                       by_place.fill(T(0.0));
+                       by_normal.fill(T(0.0));
+                       by_place[0] = 2 * std::numbers::pi * weight * p[0] * m[0];
+                       by_normal[0] = disk;
+                       return disk * m[0];
+                     }
                      for (int i = 0; i < D; ++i) {
                        at(by_place, i) = (weight / D) * at(m, i);
                        at(by_normal, i) = (weight / D) * at(p, i);

@@ -104,11 +104,19 @@ std::shared_ptr<const Surface<D>> QuadraticSurface<D>::through(std::map<Key, Vec
 template <int D>
 std::shared_ptr<const Surface<D>> QuadraticSurface<D>::renumbered(
     std::span<const Index> order) const {
-  std::vector<Index> number(order.size());
+  // `order` may leave out nodes.
+  std::vector<Index> number(
+      order.empty() ? 0
+                    : static_cast<std::size_t>(*std::max_element(order.begin(), order.end())) + 1,
+      -1);
   for (std::size_t i = 0; i < order.size(); ++i) at(number, order[i]) = static_cast<Index>(i);
   std::map<Key, Vec<D>> point;
   for (const auto& [old, place] : point_) {
     Key key = old;
+    const auto is_left_out = [&](Index node) {
+      return node >= static_cast<Index>(number.size()) || at(number, node) < 0;
+    };
+    if (std::any_of(key.begin(), key.end(), is_left_out)) continue;
     for (Index& node : key) node = at(number, node);
     std::sort(key.begin(), key.end());
     point[key] = place;

@@ -22,7 +22,7 @@ struct SurfacePoints {
   std::vector<Vec<D>> X;       ///< position
   std::vector<Vec<D>> N;       ///< outward unit normal
   std::vector<Mat<D>> grad_N;  ///< N_K,L, tangential in both indices: grad_N N = grad_N^T N = 0
-  std::vector<Real> area;      ///< weight; in 2D length per unit depth
+  std::vector<Real> area;      ///< weight; in 2D length per unit depth, or area of revolution
   std::vector<Index> facet;    ///< number of the boundary facet
   int per_facet = 0;
   /// True for points on the exact surface. Otherwise facets are flat with grad_N = 0, so the points
@@ -39,7 +39,8 @@ class Surface {
  public:
   virtual ~Surface() = default;
 
-  /// k Gauss points per direction of every boundary facet of the part.
+  /// k Gauss points per direction of every boundary facet of the part. Areas are without circles;
+  /// surface_points() has them.
   virtual SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const = 0;
   /// The point of the surface at xi in [-1, 1]^(D-1) of a facet, which is the place that points()
   /// gives to a Gauss point xi. All facets that share the point return the same one.

@@ -23,7 +23,8 @@ constexpr int points_of_area = D == 2 ? 5 : 3;
 
 template <int D>
 SurfacePatches<D>::SurfacePatches(const Body<D>& body)
-    : gauss_(patch_functions<D>(points_of_area<D>)),
+    : revolved_(body.geometry.grid.revolved),
+      gauss_(patch_functions<D>(points_of_area<D>)),
       patches_(static_cast<Index>(body.geometry.grid.facets.size())) {
   number_points(body.geometry);
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
@@ -91,7 +92,8 @@ NodalVectors SurfacePatches<D>::changes(const NodalVectors& x, const NodalVector
 template <int D>
 typename SurfacePatches<D>::template Corners<Lanes> SurfacePatches<D>::corners(
     Index group, const NodalVectors& x) const {
-  const Lanes origin = x.front();
+  Lanes origin = x.front();
+  if (revolved_) origin.set(0, 0);
   Corners<Lanes> place;
   for (int lane = 0; lane < 4; ++lane) {
     const auto& node = at(node_, std::min(group * 4 + lane, patches_ - 1));

@@ -27,6 +27,10 @@ namespace meniscus {
 /// Gradients with respect to the particles follow by the chain rule through dm . b = dt_1 . (t_2 x
 /// b) + dt_2 . (b x t_1). In 2D, area and volume are circumference and area, per unit depth.
 ///
+/// In a body of revolution the patches are turned about the axis (axisymmetry note 6):
+///   A = sum 2 pi w x_0 |m|,   V = sum pi w x_0^2 m_0,   h = sum pi w (z . x) x_0^2 m_0 / V.
+/// Both ends of a curve are on the axis, or it is closed.
+///
 /// The points of the wetted faces of the body lie on their walls: x_a is the nearest point P(y_a)
 /// of the wall to y_a = X_a + sum_A N_A(X_a) u_A, and gradients with respect to particles have the
 /// factor DP^T (sharp line note 1).
@@ -206,6 +210,7 @@ class SurfacePatches {
   /// Sum of `size` over the patches of a group. The last group may have lanes without a patch.
   Real sum_of_patches(Index group, const Lanes& size) const;
 
+  bool revolved_;
   std::vector<PatchFunctions<D>> gauss_;
   Index patches_ = 0;
   std::vector<std::array<Index, nodes>> node_;  // [patch][a]: number of a point

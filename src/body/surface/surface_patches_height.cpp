@@ -24,6 +24,16 @@ T SurfacePatches<D>::group_moment(const Vec<D>& along, const Corners<T>& place, 
   return group_sum(place, gradient,
                    [&](Real weight, const Vector<T>& p, const Vector<T>& m, Vector<T>& by_place,
                        Vector<T>& by_normal) -> T {
+                     if (revolved_) {
+                       const T disk = std::numbers::pi * weight * p[0] * p[0],
+                               level = along[1] * p[1];
+                       by_place.fill(T(0.0));
+                       by_normal.fill(T(0.0));
+                       by_place[0] = 2 * std::numbers::pi * weight * p[0] * m[0] * level;
+                       by_place[1] = along[1] * disk * m[0];
+                       by_normal[0] = disk * level;
+                       return disk * level * m[0];
+                     }
                      const Real share = weight / (D + 1);
                      T height = along[0] * p[0];
                      for (int i = 1; i < D; ++i) height += along[i] * at(p, i);

@@ -6,26 +6,49 @@
 #include "numbers/surface_geometry.hpp"
 #include "parallel/parallel.hpp"
 
+#include <cmath>
+
 namespace meniscus {
+
+namespace {
+
+/// Multiplies areas by the circles of the points.
+template <int D>
+void take_circles(const Grid<D>& grid, SurfacePoints<D>& points) {
+  if (!grid.revolved) return;
+  for (Index q = 0; q < points.size(); ++q) at(points.area, q) *= circle(grid, at(points.X, q));
+}
+
+}  // namespace
 
 template <int D>
 SurfacePoints<D> facet_points(const Grid<D>& grid, int k) {
   const auto every = [](const Facet<D>&) { return true; };
-  return points_of_facets(grid, k, every, [&](const Facet<D>& facet, const Vec<D - 1>& xi, Real w) {
-    const auto p = multilinear<D, D - 1>(facet_corners(facet, grid.X), xi);
-    const Vec<D> normal = area_normal<D>(p.J);
-    return FacetPoint<D>{p.X, normal.normalized(), Mat<D>::Zero(), w * normal.norm()};
-  });
+  auto points =
+      points_of_facets(grid, k, every, [&](const Facet<D>& facet, const Vec<D - 1>& xi, Real w) {
+        const auto p = multilinear<D, D - 1>(facet_corners(facet, grid.X), xi);
+        const Vec<D> normal = area_normal<D>(p.J);
+        return FacetPoint<D>{p.X, normal.normalized(), Mat<D>::Zero(), w * normal.norm()};
+      });
+  take_circles(grid, points);
+  return points;
 }
 
 template <int D>
 SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k, SurfacePart part) {
-  return geometry.surface->points(geometry.grid, k, part);
+  auto points = geometry.surface->points(geometry.grid, k, part);
+  take_circles(geometry.grid, points);
+  return points;
 }
 
 template <int D>
 Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const Vec<D - 1>& xi) {
-  return geometry.surface->point(geometry.grid, facet, xi);
+  Vec<D> X = geometry.surface->point(geometry.grid, facet, xi);
+  if constexpr (D == 2)
+    if (geometry.grid.revolved && std::abs(xi[0]) == 1 &&
+        at(geometry.grid.X, at(facet.nodes, xi[0] > 0 ? 1 : 0))[0] == 0)
+      X[0] = 0;
+  return X;
 }
 
 template <int D>

@@ -13,7 +13,8 @@ SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k,
                                 SurfacePart part = SurfacePart::whole);
 
 /// The point of the surface at xi in [-1, 1]^(D-1) of a facet. surface_points() gives the same
-/// position to a Gauss point xi. On an edge between two patches the point lies on both.
+/// position to a Gauss point xi. On an edge between two patches the point lies on both, and at a
+/// node on the axis of revolution it lies there.
 template <int D>
 Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const Vec<D - 1>& xi);
 

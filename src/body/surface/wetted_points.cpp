@@ -65,7 +65,8 @@ WettedPoints<D>::WettedPoints(const Geometry<D>& geometry, const std::string& fa
   area.assign(X.size(), 0);
   for (const auto& patch : patches) {
     for (const PatchFunctions<D>& f : gauss) {
-      const Real dA = f.weight * area_of(patch_place<D>(f, patch, X));
+      const auto place = patch_place<D>(f, patch, X);
+      const Real dA = f.weight * area_of(place) * circle(geometry.grid, place.X);
       for (std::size_t a = 0; a < patch.size(); ++a) at(area, patch[a]) += f.L[a] * dA;
     }
     for (const Side<D>& side : sides_of_patch<D>()) {

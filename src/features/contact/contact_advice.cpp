@@ -31,7 +31,7 @@ TouchingBody touching_body(const std::string& name, const Assembly<D>& assembly)
   const Real mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
   const bool fluid = assembly.of(name).is_fluid();
   return {mass / volume, fluid ? 0 : assembly.shear_modulus(name), assembly.of(name).bulk_modulus,
-          ball_radius<D>(volume)};
+          ball_radius(volume, body.space())};
 }
 
 /// Mean velocity of the particles at the start. Coefficients are used instead of values, which is
@@ -173,8 +173,9 @@ void advise_on_spreading(const std::string& contact, const std::string& drop, Re
   const Real ohnesorge = mu / std::sqrt(whole.density * gamma * whole.radius);
   if (!(ohnesorge < calm)) return;
   if (const auto theta = contact_angle(adhesion, gamma)) {
-    const Real base = base_of_cap(*theta, D) * std::pow(volume, 1.0 / D),
-               at_rest = D == 3 ? std::numbers::pi * base * base : 2 * base;
+    const int space = assembly.body(drop).space();
+    const Real base = base_of_cap(*theta, space) * std::pow(volume, 1.0 / space),
+               at_rest = space == 3 ? std::numbers::pi * base * base : 2 * base;
     if (at_rest < far * wetted_area(assembly.initial()->motion())) return;
   }
   const std::string more = mu > 0 ? fmt::format("{:.2g} times the viscosity", calm / ohnesorge)

@@ -34,7 +34,7 @@ ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
           form_of_tension(assembly, bodies[0]),
           bodies.size() > 1 ? assembly.of(bodies[1]).surface_energy : std::nullopt,
           partner.has_value(),
-          D,
+          first.space(),
           first.volume()};
 }
 

@@ -91,8 +91,8 @@ LineAt Contact<D>::line(const Assembly<D>& assembly) const {
   const Real gamma = *assembly.of(bodies[0]).surface_energy, volume = surfaces(assembly).volume;
   law(assembly);
   if (!law_->pattern())
-    return
-        [line = bent_line(*law_, flat_.adhesion, gamma, volume, D)](const Motion&) { return line; };
+    return [line = bent_line(*law_, flat_.adhesion, gamma, volume, surfaces(assembly).dimension)](
+               const Motion&) { return line; };
   return [law = law_, gamma, volume, &body = assembly.body(bodies[0]),
           moved = partner_motion()](const Motion& motion) {
     const auto u = body.part(motion.u);
@@ -100,7 +100,8 @@ LineAt Contact<D>::line(const Assembly<D>& assembly) const {
     for (Index A = 0; A < body.size(); ++A)
       for (int i = 0; i < D; ++i)
         mean[i] += (at(body.particles.X(), A)[i] + at(u, A)[i]) / static_cast<Real>(body.size());
-    return bent_line(*law, (*law->pattern())(spatial<D>(mean), motion.time), gamma, volume, D);
+    return bent_line(*law, (*law->pattern())(spatial<D>(mean), motion.time), gamma, volume,
+                     body.space());
   };
 }
 
@@ -119,13 +120,14 @@ void Contact<D>::report_line(const LineAt& line, Assembly<D>& assembly) const {
     return;
   }
   const Real pi = std::numbers::pi, r = at_rest.radius, volume = surfaces(assembly).volume,
-             base = D == 3 ? pi * r * r : 2 * r;
+             space = surfaces(assembly).dimension, base = space == 3 ? pi * r * r : 2 * r;
   const std::string unit = assembly.units().symbol(dimension::length);
   assembly.note(fmt::format(
       "contact '{}': at rest on a plane the base of '{}' has the radius {:.4g} {}; angle, base and "
       "height are read at the wall, {:.4g} {} below the film, whose gap changes lengths by {:+.2g} "
       "%",
-      name, bodies[0], r, unit, at_rest.depth, unit, 100.0 / D * at_rest.depth * base / volume));
+      name, bodies[0], r, unit, at_rest.depth, unit,
+      100.0 / space * at_rest.depth * base / volume));
   const Real wet = assembly.measure_named(name + ".wetted_area")(begin);
   if (wet > 0.3 * base && !law(assembly).pattern() && partner->shape->round())
     assembly.note(fmt::format(
@@ -143,15 +145,18 @@ MeasureSource Contact<D>::angle_under_weight(const MeasureSource& near, const Li
   const auto angle = [of_part = near.compute, line, gamma = *assembly.of(bodies[0]).surface_energy,
                       base_of = assembly.measure_named(name + ".base_radius"),
                       volume_of = assembly.measure_named(bodies[0] + ".volume"),
-                      weight_at = assembly.weight(bodies[0]),
+                      weight_at = assembly.weight(bodies[0]), space = surfaces(assembly).dimension,
                       up = partner->shape->foot(Vec<D>::Zero()).normal](const Motion& motion) {
     constexpr Real degree = std::numbers::pi / 180;
-    const Real base = base_of(motion), area = D == 3 ? std::numbers::pi * base * base : 2 * base,
+    const Real base = base_of(motion),
+               area = space == 3 ? std::numbers::pi * base * base : 2 * base,
                volume = volume_of(motion) + line(motion).depth * area;
     const Vec<D> weight = weight_at(motion.time);
     const Real down = -weight.dot(up);
     if ((weight + down * up).norm() > 1e-9 * weight.norm()) return of_part(motion);
-    const Real theta = profile_on<D>(base, volume, down / (gamma * volume)).contact_angle;
+    const Real bond = down / (gamma * volume),
+               theta = space == 3 ? profile_on<3>(base, volume, bond).contact_angle
+                                  : profile_on<2>(base, volume, bond).contact_angle;
     return std::isnan(theta) ? of_part(motion) : theta / degree;
   };
   return {near.name, near.dimension,
@@ -164,8 +169,8 @@ template <int D>
 void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
   if (!assembly.of(bodies[0]).surface_energy) return;
   const LineAt line = this->line(assembly);
-  for (MeasureSource& source :
-       front_measures<D>(assembly.measure_named(name + ".wetted_area"), line))
+  for (MeasureSource& source : front_measures(assembly.measure_named(name + ".wetted_area"), line,
+                                              surfaces(assembly).dimension))
     assembly.measure(name, std::move(source));
   const auto gap = [shape = partner->shape, moved = partner_motion()](const Vec<D>& x, Real t) {
     return shape->foot(x - moved.displacement(t)).distance;
@@ -272,12 +277,13 @@ void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
   const PlaneContact& flat = this->flat(assembly);
   // If the adhesion varies, the contact itself has this measure.
   if (!assembly.has_measure(name + ".wetted_area"))
-    assembly.measure(name, {"wetted_area", D == 3 ? dimension::area : dimension::length,
+    assembly.measure(name, {"wetted_area", of_sum(dimension::area, D),
                             "area in contact: energy of the interaction / adhesion",
                             [energy = assembly.measure_named(name + ".energy"), W = flat.adhesion](
                                 const Motion& motion) { return -energy(motion) / W; }});
-  for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area"),
-                                                 [](const Motion&) { return BentLine(); }))
+  for (MeasureSource& source : front_measures(
+           assembly.measure_named(name + ".wetted_area"), [](const Motion&) { return BentLine(); },
+           surfaces(assembly).dimension))
     assembly.measure(name, std::move(source));
   for (MeasureSource& source :
        ridge_measures(assembly.body(bodies[0]), assembly.body(bodies[1]), flat.peak_gap))

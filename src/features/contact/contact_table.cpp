@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 namespace meniscus::contact_table {
 namespace {
 
@@ -139,6 +141,7 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
     block.problem("up", fmt::format("has {} numbers; expected is a vector of {}", up.size(), D));
   else if (!up.empty() && !(Vec<D>::Map(up.data()).norm() > 0))
     block.problem("up", "has no direction; allowed is any vector of a finite length > 0");
+  if (!planned.empty() && planned.front().geometry.grid.revolved) check_revolved(block);
   if (form != "volume") return;
   if (block.has("density") && density == "constant")
     block.problem("density",
@@ -147,6 +150,33 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
     block.problem("form",
                   "volume is for two bodies; allowed with a rigid partner are energy, pressure, "
                   "dissertation");
+}
+
+/// Reports what is not of revolution about the axis x = 0.
+template <int D>
+void Contact<D>::check_revolved(const Block& block) const {
+  if (!partner || !partner->shape) return;
+  for (const Vec<D>& x :
+       {Vec<D>(Vec<D>::Unit(0)), Vec<D>(Vec<D>::Unit(1)), Vec<D>(Vec<D>::Ones())}) {
+    Vec<D> image = x;
+    image[0] = -x[0];
+    const auto foot = partner->shape->foot(x), other = partner->shape->foot(image);
+    constexpr Real round_off = 1e-9;
+    if (std::abs(foot.distance - other.distance) <= round_off * (1 + std::abs(foot.distance)))
+      continue;
+    return block.problem("partner",
+                         "is not of revolution about the axis x = 0; allowed are a plane normal to "
+                         "y, and a centre at x = 0");
+  }
+  const auto across = [](const Expression& d) { return !(d.constant() && d({0, 0, 0}) == 0); };
+  if (!partner->displacement.empty() && across(partner->displacement.front()))
+    block.problem("partner",
+                  "is displaced across the axis of revolution; allowed is 0 for the "
+                  "component 0 of displacement");
+  if (partner->pressed() && partner->direction.front() != 0)
+    block.problem("partner",
+                  "is pressed across the axis of revolution; allowed is 0 for the "
+                  "component 0 of direction");
 }
 
 template <int D>

@@ -75,6 +75,7 @@ std::vector<KeyTable> tables_of_parts();
 
 template <int D>
 struct Contact final : Load<D>, Keys {
+  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       "bodies = [\"drop\", \"other\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\n";
   std::unique_ptr<const ContactModel<D>> model;
@@ -148,6 +149,7 @@ struct Contact final : Load<D>, Keys {
   bool soft_wetting(const Assembly<D>& assembly) const;
   std::string folding(const Assembly<D>& assembly) const;
   std::string overlap(const Assembly<D>& assembly) const;
+  void check_revolved(const Block& block) const;
   BeginningContact<D> beginning(const ForceTerm& term, const Assembly<D>& assembly) const;
 
   // Results of the last build.

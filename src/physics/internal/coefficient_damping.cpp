@@ -5,6 +5,8 @@
 #include "kernel/row_sums.hpp"
 #include "numbers/dense.hpp"
 
+#include <cmath>
+
 namespace meniscus {
 namespace {
 
@@ -38,16 +40,18 @@ class CoefficientDamping final : public ForceTerm {
                  });
   }
   void add_viscous_diagonal(Forces diagonal) override {
-    chunk_sums_.accumulate(body_.part(diagonal),
-                           [&](int, Index begin, Index end, NodalVector* sum) {
-                             const PointRows<D>& rows = body_.at_particles;
-                             for (Index A = begin; A < end; ++A)
-                               for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
-                                 const Index B = at(rows.particle, k);
-                                 const Real e = (A == B ? 1 : 0) - at(rows.value, k);
-                                 sum[B] += at(rate_, A) * e * e;
-                               }
-                           });
+    chunk_sums_.accumulate(
+        body_.part(diagonal), [&](int, Index begin, Index end, NodalVector* sum) {
+          const PointRows<D>& rows = body_.at_particles;
+          for (Index A = begin; A < end; ++A)
+            for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
+              const Index B = at(rows.particle, k);
+              const Real e = (A == B ? 1 : 0) - at(rows.value, k);
+              Lanes square = Lanes(e * e);
+              if (rows.folded) square.set(0, std::pow((A == B ? 1 : 0) - at(rows.odd_value, k), 2));
+              sum[B] += at(rate_, A) * square;
+            }
+        });
   }
 
   /// Positions are reproduced, so (I - N) x = (I - N) u.
@@ -113,7 +117,8 @@ class CoefficientDamping final : public ForceTerm {
   /// Adds the forces -c s at the particles and +c s at the coefficients, with the slip s = d - w x
   /// e.
   void add_damping(Forces force) {
-    const Eigen::Vector3d w = rotations_.sum(Rotation{}).rate();
+    const Eigen::Vector3d w =
+        body_.geometry.grid.revolved ? Eigen::Vector3d(0, 0, 0) : rotations_.sum(Rotation{}).rate();
     chunk_sums_.accumulate(
         body_.part(force), [&](int chunk, Index begin, Index end, NodalVector* f) {
           Real heat = 0;

@@ -36,6 +36,9 @@ class PressureExtension {
         cells_of_(cells_of_nodes(body.geometry.grid)),
         inner_(static_cast<std::size_t>(body.size()), true) {
     for (const Index A : boundary_nodes(body.geometry.grid)) at(inner_, A) = false;
+    // A particle on the axis can move along it only, too little for a pressure of its own.
+    for (Index A = 0; A < body.size(); ++A)
+      if (body.on_axis(A)) at(inner_, A) = false;
   }
 
   bool inner(Index cell) const { return at(inner_, cell); }

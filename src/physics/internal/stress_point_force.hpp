@@ -59,7 +59,7 @@ class StressPointForce : public ForceTerm, public AssembledForce {
   std::optional<Failure> failure_of(Index group, const Motion& motion) const override;
   Offset pairs() const final { return chunk_sums_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
-  bool has_stiffness() const final { return !surface_; }
+  bool has_stiffness() const final { return !surface_ && !body_.geometry.grid.revolved; }
   std::vector<Dual<Lanes>> pressures(const Motion& motion, const Motion& change) final;
   void add_pressure_tangent(const Motion& motion, const Motion& change, std::span<const Lanes> off,
                             Forces force) final;

@@ -21,7 +21,7 @@ class Cavity final : public ForceTerm, public AssembledForce {
     const NodalVectors rest(static_cast<std::size_t>(body.first + body.size()), Lanes::zero());
     now_ = surface_.placed({0, rest, rest});
     reference_volume_ = now_.size.volume;
-    if (part == SurfacePart::inner) gap_.emplace(surface_.reference());
+    if (part == SurfacePart::inner) gap_.emplace(body, surface_.reference());
   }
 
   std::string name() const override { return "cavity of '" + surface_.body().name + "'"; }
@@ -50,7 +50,9 @@ class Cavity final : public ForceTerm, public AssembledForce {
       at(force, surface_.body().first + A) += dp * at(gradient, A);
   }
 
-  bool has_stiffness() const override { return !vented(); }
+  bool has_stiffness() const override {
+    return !vented() && !surface_.body().geometry.grid.revolved;
+  }
   void announce(StiffnessMatrix& K) override {
     surface_.announce(K);
     if (!has_content()) return;

@@ -36,12 +36,13 @@ std::vector<Cluster<D>> clusters_of(const SurfacePoints<D>& surface,
 }
 
 /// The point that lies opposite to point q: of the points that face q, the one nearest to the line
-/// along the normal of q. -1 if no point is nearer to this line than the size of a facet.
+/// along the normal of q, which has this area in the grid. -1 if no point is nearer to this line
+/// than the size of a facet.
 template <int D>
-Index opposite(const SurfacePoints<D>& surface, Index q,
+Index opposite(const SurfacePoints<D>& surface, Index q, Real area,
                const std::vector<Cluster<D>>& candidates) {
   Index found = -1;
-  Real nearest = std::pow(at(surface.area, q) * surface.per_facet, 2.0 / (D - 1));
+  Real nearest = std::pow(area * surface.per_facet, 2.0 / (D - 1));
   const Vec<D>&X = at(surface.X, q), &N = at(surface.N, q);
   for (const Cluster<D>& cluster : candidates) {
     const Vec<D> to_centre = cluster.centre - X;
@@ -62,14 +63,16 @@ Index opposite(const SurfacePoints<D>& surface, Index q,
 }  // namespace
 
 template <int D>
-CavityGap<D>::CavityGap(const SurfacePoints<D>& reference) {
+CavityGap<D>::CavityGap(const Body<D>& of, const SurfacePoints<D>& reference) {
   std::vector<Index> one_per_facet;
   for (Index q = reference.per_facet / 2; q < reference.size(); q += reference.per_facet)
     one_per_facet.push_back(q);
   const std::vector<Cluster<D>> clusters = clusters_of(reference, one_per_facet);
   std::vector<Index> beyond(one_per_facet.size());
   parallel_for(static_cast<Index>(one_per_facet.size()), [&](Index k) {
-    at(beyond, k) = opposite(reference, at(one_per_facet, k), clusters);
+    const Index q = at(one_per_facet, k);
+    const Real length = circle(of.geometry.grid, at(reference.X, q));
+    at(beyond, k) = opposite(reference, q, at(reference.area, q) / length, clusters);
   });
   for (std::size_t k = 0; k < beyond.size(); ++k)
     if (beyond[k] >= 0) pairs_.push_back({one_per_facet[k], beyond[k]});

@@ -12,7 +12,8 @@ namespace meniscus {
 template <int D>
 class CavityGap {
  public:
-  explicit CavityGap(const SurfacePoints<D>& reference);
+  /// `of`: the body of the surface.
+  CavityGap(const Body<D>& of, const SurfacePoints<D>& reference);
 
   struct Gap {
     Real width;   ///< distance of the opposite place along the normal; negative once faces crossed

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meniscus {
 namespace {
@@ -64,7 +65,8 @@ bool is_held(const Mat<D>& span, const Vec<D>& direction) {
 
 template <int D>
 PressurePatches<D>::PressurePatches(const Body<D>& body, const FaceCells<D>& cells,
-                                    const HeldDirections& held, bool even) {
+                                    const HeldDirections& held, bool even)
+    : revolved_(body.geometry.grid.revolved) {
   for (int quarter = -1; quarter < corners; ++quarter)
     functions_.push_back(exact_functions<D>(quarter));
   list_pieces(body, cells, held, even);
@@ -126,9 +128,12 @@ void PressurePatches<D>::list_pieces(const Body<D>& body, const FaceCells<D>& ce
       go_around(point, corner, sides);
     }
   }
+  // A curve that ends on the axis of a body of revolution is closed by its turn.
+  for (auto& [ends, count] : sides)
+    if (grid.revolved && at(X, ends.first)[0] == 0) count = 0;
   closed_ = std::all_of(sides.begin(), sides.end(), [](const auto& s) { return s.second == 0; });
   rows_ = build_point_rows<D>(body.particles, X, {.value = true}, body.name);
-  if (!closed_ && even) close_by_held_rim(sides, node_of, held, X);
+  if (!closed_ && even && !grid.revolved) close_by_held_rim(sides, node_of, held, X);
   X_.resize(X.size());
   for (std::size_t q = 0; q < X.size(); ++q) set_vector<D>(X_, static_cast<Index>(q), X[q]);
 }
@@ -280,6 +285,11 @@ Real PressurePatches<D>::volume(const NodalVectors& x) const {
   for (const Piece& piece : pieces_)
     for (const PatchFunctions<D>& f : functions_of(piece)) {
       const auto at_point = place(f, piece, x);
+      if (revolved_) {
+        sum += std::numbers::pi * f.weight * at_point.X[0] * at_point.X[0] *
+               area_normal<D>(at_point)[0];
+        continue;
+      }
       const Vec<D> arm = volume_weight_.cwiseProduct(at_point.X - volume_origin_);
       sum += f.weight * arm.dot(area_normal<D>(at_point));
     }
@@ -294,8 +304,10 @@ void PressurePatches<D>::find_forces(std::span<const Real> pressures, const Noda
     for (int a = 0; a < nodes; ++a) at(piece_force_, k * nodes + a).setZero();
     for (Index g = 0; g < gauss_points(); ++g) {
       const PatchFunctions<D>& f = at(functions_of(piece), g);
+      const auto at_point = place(f, piece, x);
+      const Real circle = revolved_ ? 2 * std::numbers::pi * at_point.X[0] : 1;
       const Vec<D> thrust =
-          -f.weight * at(pressures, k * gauss_points() + g) * area_normal<D>(place(f, piece, x));
+          -f.weight * circle * at(pressures, k * gauss_points() + g) * area_normal<D>(at_point);
       for (int a = 0; a < nodes; ++a) at(piece_force_, k * nodes + a) += at(f.L, a) * thrust;
     }
   });

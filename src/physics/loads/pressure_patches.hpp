@@ -93,6 +93,7 @@ class PressurePatches {
     return functions_[piece.functions];
   }
 
+  bool revolved_;
   std::vector<std::vector<PatchFunctions<D>>> functions_;  // of whole facets, then of quarters
   std::vector<Piece> pieces_;
   bool closed_ = false;

@@ -14,6 +14,11 @@ using Vector = std::array<Lanes, 3>;
 struct Sums {
   Real x_dot_m = 0, area = 0;
   Lanes x = Lanes::zero(), m = Lanes::zero();  // a lane per component
+  /// Sets the sums of components across the axis to zero, as around a whole circle.
+  void balance_across_axis() {
+    x.set(0, 0);
+    m.set(0, 0);
+  }
   friend Sums operator+(const Sums& a, const Sums& b) {
     return {a.x_dot_m + b.x_dot_m, a.area + b.area, a.x + b.x, a.m + b.m};
   }
@@ -45,7 +50,7 @@ template <int D>
 ClosedSurface<D>::ClosedSurface(const Body<D>& body, SurfacePart part, int points)
     : body_(body),
       reference_(surface_points(body.geometry, points, part)),
-      share_((part == SurfacePart::inner ? -1.0 : 1.0) / D) {
+      share_((part == SurfacePart::inner ? -1.0 : 1.0) / space_dimension(body.geometry.grid)) {
   if (reference_.size() == 0)
     throw InputError("body '" + body.name + "' has no " +
                      (part == SurfacePart::inner ? "inner" : "outer") + " surface");
@@ -60,6 +65,7 @@ ClosedSurface<D>::ClosedSurface(const Body<D>& body, SurfacePart part, int point
     origin_ += at(reference_.area, q) * at(reference_.X, q);
   }
   origin_ /= weight_;
+  if (body.geometry.grid.revolved) origin_[0] = 0;
   const std::size_t groups = static_cast<std::size_t>(rule_.groups());
   X_.assign(groups * D, Lanes::zero());
   N_ = X_;
@@ -77,13 +83,13 @@ typename ClosedSurface<D>::Group ClosedSurface<D>::evaluate(Index group,
   Tensor<Lanes> H;
   rule_.gather(group, u, H);
   points.F = deformation_gradient(H);
-  const Tensor<Lanes> cof = cofactor(points.F);
   points.x.fill(Lanes::zero());
   for (int k = 0; k < D; ++k) at(points.x, k) = at(X_, group * D + k);
   for (int lane = 0; lane < 4 && group * 4 + lane < reference_.size(); ++lane) {
     const Lanes displacement = value_at(rule_.rows, group * 4 + lane, u);
     for (int k = 0; k < D; ++k) at(points.x, k).set(lane, at(points.x, k)[lane] + displacement[k]);
   }
+  const Tensor<Lanes> cof = cofactor(points.F);
   for (int i = 0; i < 3; ++i) {
     at(points.m, i) = Lanes::zero();
     for (int k = 0; k < D; ++k) at(points.m, i) += cof(i, k) * at(N_, group * D + k);
@@ -103,10 +109,11 @@ typename ClosedSurface<D>::Placed ClosedSurface<D>::placed(const Motion& motion)
 template <int D>
 void ClosedSurface<D>::place(const Motion& motion, Placed& placed) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  const Sums sums = parallel_sum(rule_.groups(), Sums{}, [&](Index g) {
+  Sums sums = parallel_sum(rule_.groups(), Sums{}, [&](Index g) {
     const Group& points = at(placed.groups, g) = evaluate(g, u);
     return sums_of(rule_.weight(g), points.x, points.m);
   });
+  if (body_.geometry.grid.revolved) sums.balance_across_axis();
   placed.mean_x = each_lane(sums.x, 1 / weight_);
   placed.mean_m = each_lane(sums.m, 1 / weight_);
   placed.size = {share_ * volume(sums, weight_), sums.area};
@@ -115,10 +122,11 @@ void ClosedSurface<D>::place(const Motion& motion, Placed& placed) const {
 template <int D>
 typename ClosedSurface<D>::Size ClosedSurface<D>::size(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  const Sums sums = parallel_sum(rule_.groups(), Sums{}, [&](Index g) {
+  Sums sums = parallel_sum(rule_.groups(), Sums{}, [&](Index g) {
     const Group points = evaluate(g, u);
     return sums_of(rule_.weight(g), points.x, points.m);
   });
+  if (body_.geometry.grid.revolved) sums.balance_across_axis();
   return {share_ * volume(sums, weight_), sums.area};
 }
 

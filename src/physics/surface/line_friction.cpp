@@ -172,7 +172,8 @@ class LineFriction final : public ForceTerm {
       for (int b = 0; b < nodes; ++b)
         at(drag.by_point, b) = at(points, a).DP * at(drag.by_point, b) * at(points, b).DP;
     } else {
-      drag.by_point[0] = friction_ * points[0].DP * points[0].DP;
+      const Real length = circle(body_.geometry.grid, points[0].x);
+      drag.by_point[0] = friction_ * length * points[0].DP * points[0].DP;
     }
     return drag;
   }

@@ -41,10 +41,12 @@ Real cone(const std::array<Vec<3>, 3>& x) {
 }
 
 /// Volume enclosed by the simplices [begin, end) of a closed face; positive if they face outwards.
+/// In the half plane of a body of revolution, the axis closes it.
 template <int D>
 Real enclosed_volume(const std::vector<std::array<Index, D>>& simplices, Index begin, Index end,
-                     const std::vector<Vec<D>>& x) {
-  const Vec<D>& origin = at(x, at(simplices, begin)[0]);
+                     const std::vector<Vec<D>>& x, bool revolved) {
+  Vec<D> origin = at(x, at(simplices, begin)[0]);
+  if (revolved) origin[0] = 0;
   Real sum = 0;
   for (Index k = begin; k < end; ++k) {
     std::array<Vec<D>, D> corner;
@@ -98,7 +100,8 @@ SurfaceCheck<D>::SurfaceCheck(std::vector<const Body<D>*> bodies,
   }
   face_begin_.push_back(static_cast<Index>(group.size()));
   for (std::size_t f = 0; f + 1 < face_begin_.size(); ++f)
-    volume_.push_back(enclosed_volume<D>(simplices, face_begin_[f], face_begin_[f + 1], X));
+    volume_.push_back(
+        enclosed_volume<D>(simplices, face_begin_[f], face_begin_[f + 1], X, revolved()));
   search_.emplace(std::move(simplices), group, X);
 }
 
@@ -134,7 +137,7 @@ template <int D>
 std::optional<Failure> SurfaceCheck<D>::turned_face(const std::vector<Vec<D>>& x) const {
   for (std::size_t f = 0; f < volume_.size(); ++f) {
     const Real now =
-        enclosed_volume<D>(search_->simplices(), face_begin_[f], face_begin_[f + 1], x);
+        enclosed_volume<D>(search_->simplices(), face_begin_[f], face_begin_[f + 1], x, revolved());
     if (now * volume_[f] > 0) continue;
     const Place& place = at(place_, at(search_->simplices(), face_begin_[f])[0]);
     return Failure{

@@ -37,6 +37,7 @@ class SurfaceCheck {
     std::size_t body;
     Index particle;  // of the body
   };
+  bool revolved() const { return bodies_.front()->geometry.grid.revolved; }
   std::vector<Vec<D>> places(const Motion& motion) const;
   std::optional<Failure> crossing_at(const std::vector<Vec<D>>& x) const;
   std::optional<Failure> turned_face(const std::vector<Vec<D>>& x) const;

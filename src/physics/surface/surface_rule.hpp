@@ -65,8 +65,7 @@ struct SurfaceRule {
     });
   }
   MeasureSource area_measure(const Body<D>& body) const {
-    return {"area", D == 3 ? dimension::area : dimension::length,
-            "current area of the surface (2D: length)",
+    return {"area", of_sum(dimension::area, D), "current area of the surface (2D: length)",
             [this, first = body.first](const Motion& m) { return area(m.u.data() + first); }};
   }
 };

@@ -18,8 +18,7 @@ class TensionTerm : public ForceTerm {
     return gamma_ * area(motion);
   }
   std::vector<MeasureSource> measures() const override {
-    return {{"area", D == 3 ? dimension::area : dimension::length,
-             "current area of the surface (2D: length)",
+    return {{"area", of_sum(dimension::area, D), "current area of the surface (2D: length)",
              [this](const Motion& motion) { return area(motion); }}};
   }
 

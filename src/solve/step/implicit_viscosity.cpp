@@ -248,6 +248,8 @@ typename ImplicitViscosity<D>::RigidVelocity ImplicitViscosity<D>::missing_motio
     return Moments{m, m * place(body, state, A), spatial(at(r_, A))};
   });
   const Eigen::Vector3d centre = all.centre / all.mass;
+  if (system_.revolved())
+    return {centre, {0, all.momentum[1] / all.mass, 0}, Eigen::Vector3d::Zero()};
   const Rotation about = sum_over_body(Rotation{}, [&](Index A) {
     const Eigen::Vector3d y = place(body, state, A) - centre;
     return Rotation{

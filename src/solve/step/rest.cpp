@@ -44,6 +44,10 @@ RigidField rigid_part(const System<D>& system, const Body<D>& body, const State&
   }
   field.centre /= mass;
   field.translation /= mass;
+  if (system.revolved()) {
+    field.translation[0] = 0;
+    return field;
+  }
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (Index A = 0; A < body.size(); ++A) {
@@ -154,6 +158,8 @@ Real FluidRest<D>::unbalanced_force(const State& state) const {
   for (const Body<D>* body : bodies_) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (Index A = 0; A < body->size(); ++A) centre += place_of(*body, state, A) / body->size();
+    const bool revolved = body->geometry.grid.revolved;
+    if (revolved) centre[0] = 0;
     Mat<D> moment = Mat<D>::Zero();
     Vec<D> sum = Vec<D>::Zero();
     for (Index A = 0; A < body->size(); ++A) {
@@ -162,6 +168,7 @@ Real FluidRest<D>::unbalanced_force(const State& state) const {
       sum += f;
       moment += f * x.transpose();
     }
+    if (revolved) sum[0] = 0;
     largest = std::max({largest, sum.norm(), moment.norm() / extent_});
   }
   return largest;
@@ -178,6 +185,7 @@ std::string net_forces(const System<D>& system, const State& state) {
       net += spatial(at(state.force, A));
       sizes += spatial(at(state.force, A)).norm();
     }
+    if (system.revolved()) net[0] = 0;
     if (!(net.norm() > most * sizes)) continue;
     text += text.empty() ? "net force (" : ", (";
     for (int i = 0; i < D; ++i)

@@ -76,7 +76,7 @@ Measurement measure(const StaticDrop& c, int level, Real end) {
   m.set_up = set_up.seconds();
   if (!c.stretched)
     m.errors.emplace_back("residual force",
-                          capillary_residual<D>(state.force, 1, value("area"), value("volume")));
+                          capillary_residual(state.force, 1, value("area"), value("volume"), D));
   const Stopwatch run;
   Real balance = 0;
   try {

@@ -93,7 +93,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
         {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
          [this](const Motion& motion) { return gap(motion) / spacing(); }}};
     if (wets_)
-      all.push_back({"wetted_area", D == 3 ? dimension::area : dimension::length,
+      all.push_back({"wetted_area", of_sum(dimension::area, D),
                      "area in full contact that has the energy of the adhesion (2D: length)",
                      [this](const Motion& motion) {
                        return sum_of(motion, &GapForces<D>::unit_energy) / law_.contact_energy();

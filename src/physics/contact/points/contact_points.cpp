@@ -88,7 +88,9 @@ void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vec
     search.within(x, search.distance_of_nearest(x, 1) * (1 + 1e-12), nearest);
     made_->rule.point_owner.push_back(nearest.front());
   }
-  const Real total = std::accumulate(measure.begin(), measure.end(), Real{0});
+  Real total = 0;
+  for (std::size_t q = 0; q < X.size(); ++q)
+    total += measure[q] / circle(body_->geometry.grid, X[q]);
   made_->spacing =
       std::pow(total / static_cast<Real>(X.size()), 1.0 / (components_ == 1 ? D : D - 1));
   made_->X.assign(offset(this->clusters(), D), Lanes::zero());
@@ -106,9 +108,13 @@ void ContactPoints<D>::build_rows(RowContent content) {
   for (Index q = 0; q < size(); ++q)
     if (has_point(q)) places.push_back(reference_place(q));
   made_->rule.rows = build_point_rows<D>(body_->particles, places, content, body_->name);
-  const std::vector<Offset> start = std::exchange(made_->rule.rows.start, {0});
-  for (Index q = 0, point = 0; q < size(); ++q)
-    made_->rule.rows.start.push_back(at(start, has_point(q) ? ++point : point));
+  PointRows<D>& rows = made_->rule.rows;
+  const std::vector<Offset> start = std::exchange(rows.start, {0});
+  if (rows.folded) rows.radius.clear();
+  for (Index q = 0, point = 0; q < size(); ++q) {
+    rows.start.push_back(at(start, has_point(q) ? ++point : point));
+    if (rows.folded) rows.radius.push_back(reference_place(q)[0]);
+  }
   made_->chunk_sums = made_->rule.chunk_sums(*body_);
 }
 
@@ -127,7 +133,7 @@ void ContactPoints<D>::for_shape_functions(Index point, F&& f) const {
   if (made_->patches) return made_->patches->for_shape_functions(at(made_->order, point), f);
   const PointRows<D>& rows = made_->rule.rows;
   for (Offset e = at(rows.start, point); e < at(rows.start, point + 1); ++e)
-    f(at(rows.particle, e), at(rows.value, e));
+    f(at(rows.particle, e), at(rows.value, e));  // folded rows: along the axis
 }
 
 /// Inertia: the smallest m_A / (sum_s w_s |N_A| sum_B |N_B|), the mass that a row of the contact

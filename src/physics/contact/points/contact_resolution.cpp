@@ -35,16 +35,26 @@ Real ContactResolution::longest_spacing() const {
   return reach * gap;
 }
 
+namespace {
+
+/// Areas of the points of facets in the grid; in a body of revolution without their circles.
+template <int D>
+std::vector<Real> areas_of_grid(const Body<D>& body, int points) {
+  return body.geometry.surface->points(body.geometry.grid, points, SurfacePart::whole).area;
+}
+
+}  // namespace
+
 template <int D>
 Real facet_size(const Body<D>& body) {
-  const std::vector<Real> area = surface_points(body.geometry, 2).area;
+  const std::vector<Real> area = areas_of_grid(body, 2);
   const Real total = std::accumulate(area.begin(), area.end(), Real{0});
   return std::pow(total / static_cast<Real>(body.geometry.grid.facets.size()), 1.0 / (D - 1));
 }
 
 template <int D>
 FacetEdges facet_edges(const Body<D>& body) {
-  const std::vector<Real> area = surface_points(body.geometry, 1).area;
+  const std::vector<Real> area = areas_of_grid(body, 1);
   const auto [least, largest] = std::minmax_element(area.begin(), area.end());
   return {std::pow(*least, 1.0 / (D - 1)), std::pow(*largest, 1.0 / (D - 1))};
 }

@@ -85,7 +85,8 @@ PlacedBody<D>::PlacedBody(const Body<D>& the_body, const Motion& motion)
 
 template <int D>
 Polyhedron<D>::Polyhedron(const PlacedBody<D>& body)
-    : simplices_(simplices_of(body)),
+    : revolved_(body.body.geometry.grid.revolved),
+      simplices_(simplices_of(body)),
       centres_(centres_of<D>(simplices_)),
       box_(body.box),
       search_(centres_) {}
@@ -94,6 +95,11 @@ template <int D>
 Real Polyhedron<D>::winding_number(const Vec<D>& x) const {
   Real sum = 0;
   for (const Simplex& simplex : simplices_) sum += angle(simplex, x);
+  if (revolved_) {  // the other half of the section is seen from x like this one from its image
+    Vec<D> image = x;
+    image[0] = -x[0];
+    for (const Simplex& simplex : simplices_) sum += angle(simplex, image);
+  }
   return sum / (D == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi);
 }
 

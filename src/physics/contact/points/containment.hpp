@@ -38,6 +38,7 @@ class Polyhedron {
  private:
   using Simplex = std::array<Vec<D>, D>;
 
+  bool revolved_;
   std::vector<Simplex> simplices_;
   std::vector<Vec<D>> centres_;
   Box<D> box_;

@@ -3,6 +3,7 @@
 #include "physics/contact/points/patch_points.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace meniscus {
 namespace {
@@ -36,7 +37,9 @@ std::array<Vec<3>, 2> through_tangents(const std::array<Vec<3>, 2>& t, const Vec
 
 template <int D>
 PatchPoints<D>::PatchPoints(const Body<D>& body, int points)
-    : surface_(body), functions_(patch_functions<D>(points)) {
+    : revolved_(body.geometry.grid.revolved),
+      surface_(body),
+      functions_(patch_functions<D>(points)) {
   for (Index a = 0; a < surface_.point_count(); ++a) {
     const Vec<D>& X = surface_.reference_place(a);
     reference_.push_back(Lanes(X[0], X[1], D == 3 ? X[D - 1] : 0.0, 0.0));
@@ -72,7 +75,13 @@ std::array<Vec<D>, D - 1> PatchPoints<D>::tangents(Index point, const NodalVecto
 
 template <int D>
 Vec<D> PatchPoints<D>::area_vector(Index point, const NodalVectors& places) const {
-  return functions(point).weight * area_normal(tangents(point, places));
+  return weight(point, places) * area_normal(tangents(point, places));
+}
+
+template <int D>
+Real PatchPoints<D>::weight(Index point, const NodalVectors& places) const {
+  const Real of_curve = functions(point).weight;
+  return revolved_ ? 2 * std::numbers::pi * place(point, places)[0] * of_curve : of_curve;
 }
 
 template <int D>
@@ -91,11 +100,14 @@ template <int D>
 void PatchPoints<D>::add(Index point, const Vec<D>& T, const Vec<D>& S,
                          const NodalVectors& places) {
   const PatchFunctions<D>& f = functions(point);
-  const auto c = through_tangents(tangents(point, places), f.weight * S);
+  const auto t = tangents(point, places);
+  const auto c = through_tangents(t, weight(point, places) * S);
+  Vec<D> pull = T;
+  if (revolved_) pull[0] += 2 * std::numbers::pi * f.weight * S.dot(area_normal(t));
   Lanes* gradient = gradient_.data() + static_cast<std::size_t>(group(point)) * nodes * D;
   const int lane = patch(point) % Lanes::width;
   for (int a = 0; a < nodes; ++a) {
-    Vec<D> g = at(f.L, a) * T;
+    Vec<D> g = at(f.L, a) * pull;
     for (int k = 0; k < D - 1; ++k) g += at(at(f.dL, k), a) * at(c, k);
     for (int i = 0; i < D; ++i) {
       Lanes& sum = gradient[a * D + i];

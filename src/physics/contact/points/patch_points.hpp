@@ -32,7 +32,7 @@ class PatchPoints {
 
   /// The value at a point of a field with these nodal values, e.g. its position.
   Vec<D> place(Index point, const NodalVectors& nodes) const;
-  /// The outward area vector m dA.
+  /// The outward area vector m dA; in a body of revolution that of the whole circle, 2 pi x_0 m ds.
   Vec<D> area_vector(Index point, const NodalVectors& nodes) const;
   /// The node nearest to the point.
   Index node_nearby(Index point) const;
@@ -80,7 +80,10 @@ class PatchPoints {
   }
   /// Tangents dx/dxi_k.
   std::array<Vec<D>, D - 1> tangents(Index point, const NodalVectors& nodes) const;
+  /// The weight of a point with the length of its circle.
+  Real weight(Index point, const NodalVectors& nodes) const;
 
+  bool revolved_;
   SurfacePatches<D> surface_;
   std::vector<PatchFunctions<D>> functions_;
   NodalVectors reference_;

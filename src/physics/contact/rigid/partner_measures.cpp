@@ -129,30 +129,32 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
       {"gap_per_spacing", dimension::none,
        "the gap as the law counts it / distance of neighbouring points",
        [&pair](const Motion& motion) { return gap_at(pair, motion) / pair.finest().spacing(); }}};
-  for (int i = 0; i < D; ++i)
+  const bool revolved = pair.finest().body().geometry.grid.revolved;
+  const int first = revolved ? 1 : 0;  // components across the axis balance each other
+  for (int i = first; i < D; ++i)
     all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the body",
                    looked_at([i, &pair](const PartnerLayers<D>& layers) {
                      return resultant(pair, layers).force[i];
                    })});
-  for (int i = D == 3 ? 0 : 2; i < 3; ++i)
+  for (int i = D == 3 ? 0 : 2; i < 3 && !revolved; ++i)
     all.push_back({std::string("torque_") + "xyz"[i], dimension::energy,
                    "torque on the body about the origin",
                    looked_at([i, &pair](const PartnerLayers<D>& layers) {
                      return resultant(pair, layers).moment[i];
                    })});
   if (wets) {
-    for (int i = 0; i < D; ++i)
+    for (int i = first; i < D; ++i)
       all.push_back({std::string("reaction_") + "xyz"[i], dimension::force, "force on the partner",
                      looked_at([i, &pair](const PartnerLayers<D>& layers) {
                        return -resultant(pair, layers).force[i];
                      })});
     all.push_back(
-        {"wetted_area", D == 3 ? dimension::area : dimension::length,
+        {"wetted_area", of_sum(dimension::area, D),
          "area in full contact that has the energy of the adhesion (2D: length)",
          [&pair, &effects](const Motion& motion) { return wetted_area(pair, effects, motion); }});
   }
   if (effects.rubs())
-    for (int i = 0; i < D; ++i)
+    for (int i = first; i < D; ++i)
       all.push_back({std::string("slip_") + "xyz"[i], dimension::velocity,
                      "mean velocity along the partner and relative to it, over the area that rubs",
                      [i, &pair, &effects](const Motion& motion) {
@@ -168,7 +170,7 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
                    }});
   }
   if (pair.partner.motion.moves() || pair.partner.motion.press())
-    for (int i = 0; i < D; ++i)
+    for (int i = first; i < D; ++i)
       all.push_back({std::string("displacement_") + "xyz"[i], dimension::length,
                      "displacement of the partner",
                      [i, &pair](const Motion& motion) { return pair.shift(motion)[i]; }});

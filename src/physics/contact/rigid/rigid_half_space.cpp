@@ -47,7 +47,7 @@ class HalfSpace final : public RigidPartner<D> {
 template <int D>
 std::unique_ptr<RigidPartner<D>> rigid_half_space(const ContactLaw& law, Real beta,
                                                   const Vec<D>& point, const Vec<D>& normal) {
-  require_kernel<D>(law, "half space");
+  require_kernel<D>(law, "half space", true);
   if (!(normal.norm() > 0)) throw InputError("a rigid half space needs a normal that is not zero");
   return std::make_unique<HalfSpace<D>>(law, beta, point, normal);
 }

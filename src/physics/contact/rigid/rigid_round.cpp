@@ -10,8 +10,10 @@
 namespace meniscus {
 namespace {
 
-/// Ball or cavity from the closed form `Exact` of a ball: SphereField or CylinderField.
-template <int D, class Exact>
+/// Ball or cavity from the closed form `Exact` of a ball: SphereField or CylinderField. `space` is
+/// the dimension of the space of its field: 3 in the half plane of a body of revolution, with the
+/// centre on the axis.
+template <int D, class Exact, int space = D>
 class RoundPartner final : public RigidPartner<D> {
  public:
   RoundPartner(const ContactLaw& law, Real beta, const Vec<D>& centre, Real radius, bool cavity)
@@ -31,7 +33,7 @@ class RoundPartner final : public RigidPartner<D> {
     const Vec<D> k = a > 0 ? Vec<D>(from_centre / a) : Vec<D>::Unit(0);
     const RadialField f = inside_core(a) ? continued(a) : exact_.at(a);
     const Mat<D> kk = k * k.transpose();
-    const Real radial = f.U - (D - 1) * f.tangent;
+    const Real radial = f.U - (space - 1) * f.tangent;
     return {beta_ * f.U, beta_ * f.tangent * from_centre,
             beta_ * (f.tangent * (Mat<D>::Identity() - kk) + radial * kk)};
   }
@@ -48,11 +50,13 @@ class RoundPartner final : public RigidPartner<D> {
   /// = a^(D-1) S follows from the integral of a^(D-1) U.
   RadialField continued(Real a) const {
     const Real U0 = at_core_.U - slope_ * core_, c = core_;
-    const auto flux = [&](Real r) { return std::pow(r, D) * (U0 / D + slope_ * r / (D + 1)); };
+    const auto flux = [&](Real r) {
+      return std::pow(r, space) * (U0 / space + slope_ * r / (space + 1));
+    };
     const Real least = 1e-6 * radius_;  // S has a pole in the centre of a ball
     const Real r = a > least ? a : least;
     return {U0 + slope_ * r,
-            (std::pow(c, D) * at_core_.tangent + flux(r) - flux(c)) / std::pow(r, D)};
+            (std::pow(c, space) * at_core_.tangent + flux(r) - flux(c)) / std::pow(r, space)};
   }
 
   Exact exact_;
@@ -68,11 +72,13 @@ template <int D>
 std::unique_ptr<RigidPartner<D>> round_partner(const ContactLaw& law, Real beta,
                                                const Vec<D>& centre, Real radius, bool cavity) {
   const std::string name = cavity ? "cavity" : "ball";
-  require_kernel<D>(law, name);
+  require_kernel<D>(law, name, true);
   require_positive(radius, "the radius of a rigid " + name);
   if (cavity && !(radius > law.guard * law.sigma0))
     throw InputError("the radius of a rigid cavity must be greater than " +
                      std::to_string(law.guard) + " sigma0");
+  if (D == 2 && dimension_of(law.kernel) == 3)
+    return std::make_unique<RoundPartner<D, SphereField, 3>>(law, beta, centre, radius, cavity);
   using Field = std::conditional_t<D == 3, SphereField, CylinderField>;
   return std::make_unique<RoundPartner<D, Field>>(law, beta, centre, radius, cavity);
 }

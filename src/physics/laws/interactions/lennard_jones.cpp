@@ -158,7 +158,7 @@ class Model final : public ContactModel<D> {
   /// without surface tension.
   ContactLaw pair_law(bool rigid, const ContactSurfaces& surfaces) const {
     ContactLaw law;
-    law.kernel = D == 3 ? PairKernel::space : pair_kernel_named(k_.kernel);
+    law.kernel = surfaces.dimension == 3 ? PairKernel::space : pair_kernel_named(k_.kernel);
     law.epsilon = scaled_ ? 1 : k_.epsilon;
     law.sigma0 = k_.sigma0;
     law.cutoff = rigid ? std::numeric_limits<Real>::infinity() : k_.cutoff;
