@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A face that is held or moved: the mean displacement over each of its face cells is prescribed, or
 // the face moves as one by a force.
-#include "body/surface/face_means.hpp"
 #include "input/optional_rows.hpp"
-#include "input/ramp.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/scene/assembly.hpp"
-#include "numbers/dense.hpp"
-#include "physics/constraint.hpp"
+#include "physics/loads/held_face.hpp"
 #include "physics/loads/traction.hpp"
 #include "scene/face_keys.hpp"
 
@@ -15,178 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace meniscus::held_table {
 namespace {
-
-/// The prescribed displacement of reference positions: a rotation about an axis and a translation,
-/// both multiplied by the fraction of a ramp.
-template <int D>
-struct Grip {
-  std::vector<Expression> displacement;  // empty if there is none
-  Expression angle;
-  Eigen::Vector3d axis, centre;
-  Ramp ramp;
-
-  bool turns() const { return !angle.constant() || angle({0, 0, 0}) != 0; }
-
-  /// Displacement R X - X of a place X by the rotation R about the centre, with Rodrigues' formula.
-  Eigen::Vector3d turned(const Eigen::Vector3d& X, Real time) const {
-    const Real by = ramp.fraction(time) * angle({0, 0, 0}, time);
-    const Eigen::Vector3d arm = X - centre, across = cross(axis, arm);
-    const Real half = std::sin(by / 2);
-    return std::sin(by) * across + 2 * half * half * cross(axis, across);
-  }
-};
-
-/// Mean displacement at a place of a constraint.
-Eigen::Vector3d displacement_of(const ConstraintRows& rows, Index place,
-                                std::span<const NodalVector> u) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (Offset e = at(rows.start, place); e < at(rows.start, place + 1); ++e) {
-    const Lanes moved = at(rows.weight, e) * at(u, at(rows.particle, e));
-    sum += Eigen::Vector3d(moved[0], moved[1], moved[2]);
-  }
-  return sum;
-}
-
-/// Mean displacement of all places, weighted by their areas; with `component`, of those whose rows
-/// are along it.
-Eigen::Vector3d mean_displacement(const ConstraintRows& rows, const std::vector<Real>& area,
-                                  std::span<const NodalVector> u, int component) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Real total = 0;
-  for (Index k = 0; k < rows.places(); ++k) {
-    if (component >= 0 && at(rows.rows, k).direction[component] == 0) continue;
-    sum += at(area, k) * displacement_of(rows, k, u);
-    total += at(area, k);
-  }
-  return sum / total;
-}
-
-/// Rows of the face cells of a face, with the number of the face cell of each place.
-struct FaceRows {
-  ConstraintRows rows;
-  std::vector<Index> cell;
-};
-
-/// Constraint that prescribes the mean displacement of each face cell.
-template <int D>
-class HeldFace final : public Constraint {
- public:
-  HeldFace(std::string called, std::string stands, FaceRows its_rows, const FaceCells<D>& cells,
-           Grip<D> grip, bool from_start, Real moment)
-      : Constraint(std::move(called), std::move(stands), std::move(its_rows.rows)),
-        cell_(std::move(its_rows.cell)),
-        grip_(std::move(grip)),
-        displacement_(cells, grip_.displacement),
-        from_start_(from_start),
-        first_(3 * static_cast<std::size_t>(rows.places()), 0.0),
-        moment_(moment) {}
-
-  /// Keeps the first mean displacements, from which others are counted.
-  void begin(std::span<const NodalVector> u) override {
-    if (!from_start_ || begun_) return;
-    begun_ = true;
-    for (Index k = 0; k < rows.places(); ++k)
-      Eigen::Vector3d::Map(first_.data() + std::ptrdiff_t{3} * k) = displacement_of(rows, k, u);
-  }
-  void archive(const Archive& a) override {
-    if (!from_start_) return;
-    a("begun", begun_);
-    a("first", first_, dimension::length);
-  }
-
-  void targets(Real time, std::span<Real> g) override {
-    const std::vector<Real>& mean = displacement_.at(time);
-    const Real fraction = grip_.ramp.fraction(time);
-    const bool turns = grip_.turns();
-    for (std::size_t r = 0; r < rows.rows.size(); ++r) {
-      const auto& row = rows.rows[r];
-      Eigen::Vector3d u = Eigen::Vector3d::Map(first_.data() + std::ptrdiff_t{3} * row.place);
-      const Eigen::Vector3d from = at(rows.X, row.place) + u;
-      if (!grip_.displacement.empty())
-        for (int i = 0; i < D; ++i) u[i] += fraction * at(mean, at(cell_, row.place) * D + i);
-      // A rotation is affine, so its mean over a cell is its value at the mean position.
-      if (turns) u += grip_.turned(from, time);
-      g[r] = row.direction.dot(u);
-    }
-  }
-  Real steady_after() const override {
-    return std::max({displacement_.steady_after(), grip_.angle.steady_after(), grip_.ramp.end});
-  }
-  Real moment() const override { return moment_; }
-
- private:
-  std::vector<Index> cell_;
-  Grip<D> grip_;
-  FaceMeans<D> displacement_;
-  bool from_start_, begun_ = false;
-  std::vector<Real> first_;  // [place][3] zero without `from_start`
-  Real moment_;
-};
-
-/// Constraint by which all places of a face have the same displacement along some components.
-class FaceAsOne final : public Constraint {
- public:
-  using Constraint::Constraint;
-  void targets(Real, std::span<Real> g) override { std::fill(g.begin(), g.end(), 0.0); }
-  Real steady_after() const override { return 0; }
-  Real moment() const override { return unbounded; }
-};
-
-/// The differences of places with successive numbers: as one, they have the same displacement.
-ConstraintRows differences_of(const ConstraintRows& face) {
-  ConstraintRows rows;
-  rows.differences = true;
-  const auto directions = static_cast<std::size_t>(face.size() / face.places());
-  for (Index k = 0; k + 1 < face.places(); ++k) {
-    std::map<Index, Real> weights;
-    for (const auto& [place, sign] : {std::pair(k, 1), std::pair(k + 1, -1)})
-      for (Offset e = at(face.start, place); e < at(face.start, place + 1); ++e)
-        weights[at(face.particle, e)] += sign * at(face.weight, e);
-    for (const auto& [particle, weight] : weights) {
-      rows.particle.push_back(particle);
-      rows.weight.push_back(weight);
-    }
-    rows.start.push_back(static_cast<Offset>(rows.particle.size()));
-    rows.X.push_back(at(face.X, k) - at(face.X, k + 1));
-    for (std::size_t i = 0; i < directions; ++i) rows.rows.push_back({k, face.rows[i].direction});
-  }
-  return rows;
-}
-
-/// Sums of the reactions of a constraint. `about`: the point to which torques refer.
-struct ReactionSums {
-  const Constraint* of;
-  Eigen::Vector3d about;
-
-  Eigen::Vector3d force(const Motion& motion) const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (Index r = 0; r < of->rows.size(); ++r) sum += row_force(motion, r);
-    return sum;
-  }
-  Eigen::Vector3d torque(const Motion& motion) const {
-    std::vector<Eigen::Vector3d> x = of->rows.X;
-    for (Index k = 0; k < of->rows.places(); ++k)
-      at(x, k) += displacement_of(of->rows, k, motion.u);
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (Index r = 0; r < of->rows.size(); ++r)
-      sum += cross(at(x, at(of->rows.rows, r).place) - about, row_force(motion, r));
-    return sum;
-  }
-  Real work(const Motion& motion) const {
-    return motion.reactions ? at(motion.reactions->work, of->number) : 0;
-  }
-
- private:
-  Eigen::Vector3d row_force(const Motion& motion, Index r) const {
-    // Trial motions have no reactions.
-    const Real lambda = motion.reactions ? at(motion.reactions->force, of->first + r) : 0;
-    return lambda * at(of->rows.rows, r).direction;
-  }
-};
 
 template <int D>
 struct Held final : Load<D> {
@@ -314,7 +142,7 @@ struct Held final : Load<D> {
   /// Adds the constraint of a face that moves as one, and the force as an even dead traction.
   void pull(Assembly<D>& assembly, const Body<D>& body, const FaceCells<D>& cells) const {
     auto held = std::make_unique<FaceAsOne>("held face '" + label() + "'", this->place,
-                                            differences_of(rows_of(cells, body).rows));
+                                            rows_of(cells, body).rows);
     note(assembly, *held, cells, body.name);
     assembly.keep_reference(face.body, "its [[held]] knows the faces of its shape only");
     if (held->rows.size() > 0) assembly.add(std::move(held));
@@ -377,8 +205,8 @@ struct Held final : Load<D> {
       if (normal && !along && !across)
         throw InputError(
             fmt::format("{}: the normal is ({:.4g}, {:.4g}) at ({:.4g}, {:.4g}); in a body of "
-                        "revolution normals "
-                        "can be held where they are along x or y; allowed are components of these",
+                        "revolution normals can be held where they are along x or y; allowed are "
+                        "components of these",
                         this->place, n[0], n[1], at(cells.centre, k)[0], at(cells.centre, k)[1]));
       if ((normal ? across : has_component(0)) && !body.on_axis(at(cells.cell, k)))
         add(k, mean.odd_value, {1, 0, 0});
@@ -390,8 +218,6 @@ struct Held final : Load<D> {
   void measure(Assembly<D>& assembly, const Constraint& held, const FaceCells<D>& cells,
                const std::vector<Index>& cell) const {
     const bool revolved = assembly.body(face.body).geometry.grid.revolved;
-    std::vector<Real> area;
-    for (const Index k : cell) area.push_back(at(cells.area, k));
     const ReactionSums sums{&held, spatial<D>(Vec<D>::Map(centre.data()))};
     const Dimension of_force = of_sum(dimension::force, D), torque = of_sum(dimension::energy, D);
     for (int i = revolved ? 1 : 0; i < D; ++i)
@@ -402,12 +228,18 @@ struct Held final : Load<D> {
       assembly.measure(label(), {fmt::format("torque_{}", "xyz"[i]), torque,
                                  "torque of these forces about the centre",
                                  [=](const Motion& motion) { return sums.torque(motion)[i]; }});
-    for (int i = 0; i < D; ++i)
-      assembly.measure(
-          label(), {fmt::format("displacement_{}", "xyz"[i]), dimension::length,
-                    "mean over the face", [of = &held, area, i, revolved](const Motion& motion) {
-                      return mean_displacement(of->rows, area, motion.u, revolved ? i : -1)[i];
-                    }});
+    for (int i = 0; i < D; ++i) {
+      // In a body of revolution, a place has the weights of one component.
+      std::vector<Real> area;
+      for (Index k = 0; k < held.rows.places(); ++k)
+        area.push_back(
+            !revolved || at(held.rows.rows, k).direction[i] != 0 ? at(cells.area, at(cell, k)) : 0);
+      if (std::all_of(area.begin(), area.end(), [](Real a) { return a == 0; })) continue;
+      assembly.measure(label(), {fmt::format("displacement_{}", "xyz"[i]), dimension::length,
+                                 "mean over the face", [of = &held, area, i](const Motion& motion) {
+                                   return mean_displacement(of->rows, area, motion.u)[i];
+                                 }});
+    }
     assembly.measure(label(), {"work", of_sum(dimension::energy, D), "work of these forces so far",
                                [=](const Motion& motion) { return sums.work(motion); }});
   }

@@ -50,9 +50,12 @@ class PointElements {
   template <class Make>
   static void set(const PointRule<D>& rule, Index g, Make&& make,
                   StiffnessMatrix::Element& element) {
-    thread_local Eigen::MatrixXd N, NC, C;
+    thread_local std::array<Eigen::MatrixXd, D> N;
+    thread_local Eigen::MatrixXd NC, C;
     const std::vector<Index> particles = particles_of(rule, g);
-    shapes(rule, g, particles, N);
+    const bool folded = is_folded(rule);
+    for (int i = 0; i < (folded ? D : 1); ++i) shapes(rule, g, particles, i, at(N, i));
+    const auto shapes_of = [&](int i) -> const Eigen::MatrixXd& { return at(N, folded ? i : 0); };
     PointModuli<D> moduli;
     moduli.of.fill(Lanes::zero());
     make(g, moduli);
@@ -60,28 +63,30 @@ class PointElements {
     auto block = element.resize(m * D);
     for (int i = 0; i < D; ++i)
       for (int j = i; j < D; ++j) {
-        C.setZero(N.cols(), N.cols());
+        C.setZero(N[0].cols(), N[0].cols());
         for (int a = 0; a <= D; ++a)
           for (int b = 0; b <= D; ++b)
             for (int q = 0; q < rule.per_group; ++q)
               C(q * (D + 1) + a, q * (D + 1) + b) = moduli(i, a, j, b)[q];
-        NC.noalias() = N * C;
-        block.block(i * m, j * m, m, m).noalias() = NC * N.transpose();
+        NC.noalias() = shapes_of(i) * C;
+        block.block(i * m, j * m, m, m).noalias() = NC * shapes_of(j).transpose();
       }
   }
-  /// Sets N(a, q (D + 1)) = N_A at the point q of a group, and its gradient in the next columns.
+  /// Sets N(a, q (D + 1)) = N_A at the point q of a group, and its gradient in the next columns, of
+  /// one component if the rows are folded.
   static void shapes(const PointRule<D>& rule, Index group, std::span<const Index> particles,
-                     Eigen::MatrixXd& N) {
+                     int component, Eigen::MatrixXd& N) {
     thread_local Eigen::MatrixXd G;
-    shape_gradients(rule, group, particles, G);
+    shape_gradients(rule, group, particles, component, G);
+    const int n = gradient_numbers(rule, D);
+    const auto& value = rule.rows.folded && component == 0 ? rule.rows.odd_value : rule.rows.value;
     N.setZero(G.rows(), rule.per_group * (D + 1));
     for (Index q = 0; q < rule.per_group; ++q) {
-      N.middleCols(q * (D + 1) + 1, D) = G.middleCols(q * D, D);
+      N.middleCols(q * (D + 1) + 1, D) = G.middleCols(q * n, D);
       const Index point = group * rule.per_group + q;
       if (point >= rule.rows.size()) continue;
       for (Offset e = at(rule.rows.start, point); e < at(rule.rows.start, point + 1); ++e)
-        N(detail::position_in(particles, at(rule.rows.particle, e)), q * (D + 1)) =
-            at(rule.rows.value, e);
+        N(detail::position_in(particles, at(rule.rows.particle, e)), q * (D + 1)) = at(value, e);
     }
   }
 
@@ -112,24 +117,31 @@ class MeanElements {
   void add(const PointRows<D>& rows, StiffnessMatrix& K, Make&& make) const {
     K.add(first_element_, static_cast<Index>(groups_.size()),
           [&](Index g, StiffnessMatrix::Element& element) {
-            thread_local Eigen::MatrixXd N, NM, M;
+            thread_local std::array<Eigen::MatrixXd, D> N;
+            thread_local Eigen::MatrixXd NM, M;
             const std::vector<Index>& points = at(groups_, g);
             const std::vector<Index> particles = particles_of(rows, static_cast<std::size_t>(g));
             const auto m = static_cast<Eigen::Index>(particles.size()),
                        Q = static_cast<Eigen::Index>(points.size());
-            N.setZero(m, Q);
-            for (Eigen::Index q = 0; q < Q; ++q) {
-              const Index point = at(points, q);
-              for (Offset e = at(rows.start, point); e < at(rows.start, point + 1); ++e)
-                N(detail::position_in(particles, at(rows.particle, e)), q) += at(rows.value, e);
+            for (int i = 0; i < (rows.folded ? D : 1); ++i) {
+              const auto& value = rows.folded && i == 0 ? rows.odd_value : rows.value;
+              at(N, i).setZero(m, Q);
+              for (Eigen::Index q = 0; q < Q; ++q) {
+                const Index point = at(points, q);
+                for (Offset e = at(rows.start, point); e < at(rows.start, point + 1); ++e)
+                  at(N, i)(detail::position_in(particles, at(rows.particle, e)), q) += at(value, e);
+              }
             }
+            const auto shapes_of = [&](int i) -> const Eigen::MatrixXd& {
+              return at(N, rows.folded ? i : 0);
+            };
             M.setZero(D * Q, D * Q);
             make(g, M);
             auto block = element.resize(m * D);
             for (int i = 0; i < D; ++i)
               for (int j = i; j < D; ++j) {
-                NM.noalias() = N * M.block(i * Q, j * Q, Q, Q);
-                block.block(i * m, j * m, m, m).noalias() = NM * N.transpose();
+                NM.noalias() = shapes_of(i) * M.block(i * Q, j * Q, Q, Q);
+                block.block(i * m, j * m, m, m).noalias() = NM * shapes_of(j).transpose();
               }
           });
   }

@@ -206,7 +206,7 @@ void run(StudyRun& study) {
   for (const auto& [name, lambda] : {std::pair("1.67", 1.0), std::pair("5000", 4999.0)})
     for (const int level : {3, 6})
       study.record(measure_sphere(fmt::format("sphere, K/mu = {}", name), lambda, level));
-  for (const Real volume : {2.0, 8.0})
+  for (const Real volume : study.brief() ? std::vector<Real>{2} : std::vector<Real>{2, 8})
     for (const int level : {3, 6})
       study.record(measure_balloon(fmt::format("balloon, volume x {:g}", volume), volume, level));
   for (const Measurement& m : study.measurements()) {

@@ -59,7 +59,7 @@ class StressPointForce : public ForceTerm, public AssembledForce {
   std::optional<Failure> failure_of(Index group, const Motion& motion) const override;
   Offset pairs() const final { return chunk_sums_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
-  bool has_stiffness() const final { return !surface_ && !body_.geometry.grid.revolved; }
+  bool has_stiffness() const final { return !surface_; }
   std::vector<Dual<Lanes>> pressures(const Motion& motion, const Motion& change) final;
   void add_pressure_tangent(const Motion& motion, const Motion& change, std::span<const Lanes> off,
                             Forces force) final;
@@ -175,6 +175,7 @@ class StressPointForce : public ForceTerm, public AssembledForce {
   Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H, const Shared& shared) const;
   /// Share of the volume change of a point that its law sees; zero if laws see nothing else.
   Real share_of_points(Index group) const { return volumes_ ? volumes_->own(group) : 0; }
+  void hold_on_axis(std::span<const Index> particles, Eigen::Map<Eigen::MatrixXd>& block) const;
   Dual<Real> stiffness_of_pressure(Index cell, Real time, const Tensor<Lanes>& H,
                                    const Shared& shared) const;
   Tensor<Dual<Lanes>> stress_change(Index group, Real time, const Tensor<Dual<Lanes>>& H,

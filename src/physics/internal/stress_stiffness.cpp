@@ -27,8 +27,20 @@ Tensor<Lanes> pressure_tangent(const Tensor<Lanes>& H, const Tensor<Lanes>& dH, 
       [&](int i, int j) { return cofactor(i, j).d - own * J.d / J.v * cofactor(i, j).v; });
 }
 
-/// A matrix of the stress change at the points of a group: to(i, j)(q D + K, r D + L) is the change
-/// of w P_iK at the point q for a change of H_jL at the point r.
+/// The component of a tensor that goes with number K of the gradient of component i. Number D is
+/// the stretch of circles, H_22 of component 0.
+template <int D>
+std::pair<int, int> entry_of(int i, int K) {
+  return K < D ? std::pair(i, K) : std::pair(D, D);
+}
+/// True if component i has no number K.
+template <int D>
+bool is_none(int i, int K) {
+  return K == D && i > 0;
+}
+
+/// A matrix of the stress change at the points of a group: to(i, j)(q n + K, r n + L) is the change
+/// of w P_iK at the point q for a change of H_jL at the point r, with n = gradient_numbers().
 template <int D>
 struct GroupModuli {
   std::array<Eigen::MatrixXd, static_cast<std::size_t>(D* D)> of;
@@ -38,7 +50,8 @@ struct GroupModuli {
 /// Room of one thread.
 template <int D>
 struct Room {
-  Eigen::MatrixXd G, GC;
+  std::array<Eigen::MatrixXd, D> gradients;
+  Eigen::MatrixXd GC;
   GroupModuli<D> moduli;
 };
 
@@ -173,8 +186,9 @@ Dual<Real> StressPointForce<D, Rule>::stiffness_of_pressure(Index cell, Real tim
                                                             const Tensor<Lanes>& H,
                                                             const Shared& shared) const {
   const Lanes J = 1.0 + volume_change(H);
+  const int space = body_.space();
   const Tensor<Lanes> along = Tensor<Lanes>::map([&](int i, int j) {
-    return i < D && j < D ? (H(i, j) + (i == j ? 1.0 : 0.0)) / (D * J) : Lanes::zero();
+    return i < space && j < space ? (H(i, j) + (i == j ? 1.0 : 0.0)) / (space * J) : Lanes::zero();
   });
   const Tensor<Dual<Lanes>> dual_H = dual(H, along);
   const Real own = volumes_->own(cell), change = at(shared.changes, volumes_->number(cell));
@@ -189,6 +203,18 @@ Dual<Real> StressPointForce<D, Rule>::stiffness_of_pressure(Index cell, Real tim
   const Real alone = work({dual_H, of_points, Dual<Lanes>(Lanes(change)), own}, 0),
              together = work({dual_H, of_points, Dual<Lanes>(Lanes(change), Lanes(1.0)), own}, 1);
   return {alone, together - alone};
+}
+
+/// Gives the unknowns of particles on the axis across it, which move nothing, a stiffness of their
+/// own.
+template <int D, class Rule>
+void StressPointForce<D, Rule>::hold_on_axis(std::span<const Index> particles,
+                                             Eigen::Map<Eigen::MatrixXd>& block) const {
+  if (!body_.geometry.grid.revolved) return;
+  const auto m = static_cast<Eigen::Index>(particles.size());
+  const Real stiffness = block.diagonal().head(2 * m).cwiseAbs().mean();
+  for (Eigen::Index a = 0; a < m; ++a)
+    if (body_.on_axis(particles[static_cast<std::size_t>(a)])) block(a, a) += stiffness;
 }
 
 /// Elements are groups: K_AB = sum w grad N_A . dP/dH . grad N_B. A coupled cell shares the
@@ -208,30 +234,40 @@ void StressPointForce<D, Rule>::add_stiffness(const Motion& motion, std::span<co
   const auto points = static_cast<Index>(rule_.points_per_group());
   K.add(first_element_, rule_.groups(), [&](Index g, StiffnessMatrix::Element& element) {
     thread_local Room<D> room;
-    Eigen::MatrixXd &G = room.G, &GC = room.GC;
+    Eigen::MatrixXd& GC = room.GC;
     const std::vector<Index> particles = particles_of(rule_, g);
-    shape_gradients(rule_, g, particles, G);
+    const int n = gradient_numbers(rule_, D);
+    for (int i = 0; i < (n > D ? D : 1); ++i)
+      shape_gradients(rule_, g, particles, i, at(room.gradients, i));
+    const auto gradients_of = [&](int i) -> const Eigen::MatrixXd& {
+      return at(room.gradients, n > D ? i : 0);
+    };
     const Tensor<Lanes> H = gradients(g, u);
     const Lanes w = rule_.weight(g);
     const Index k = volumes_ ? volumes_->number(g) : -1;
     const bool points_meet = volumes_ && k < 0 && volumes_->own(g) < 1;
-    for (Eigen::MatrixXd& C : room.moduli.of) C.setZero(points * D, points * D);
+    for (Eigen::MatrixXd& C : room.moduli.of) C.setZero(points * n, points * n);
     for (int j = 0; j < D; ++j)
-      for (int L = 0; L < D; ++L)
+      for (int L = 0; L < n; ++L)
         for (Index r = 0; r < (points_meet ? points : 1); ++r) {
+          if (is_none<D>(j, L)) continue;
           Tensor<Lanes> dH = Tensor<Lanes>::zero();
+          const auto [row, column] = entry_of<D>(j, L);
           if (points_meet)
-            dH(j, L).set(static_cast<int>(r), 1);
+            dH(row, column).set(static_cast<int>(r), 1);
           else
-            dH(j, L) = Lanes(1.0);
+            dH(row, column) = Lanes(1.0);
           Tensor<Lanes> dP = derivative(stress_change(g, motion.time, dual(H, dH), shared));
           if (!off.empty()) dP = dP + at(off, g) * pressure_tangent(H, dH, share_of_points(g));
           dP = w * dP;
           for (int i = 0; i < D; ++i)
-            for (int M = 0; M < D; ++M)
+            for (int M = 0; M < n; ++M) {
+              if (is_none<D>(i, M)) continue;
+              const auto of_M = entry_of<D>(i, M);
               for (Index q = 0; q < points; ++q)
-                room.moduli(i, j)(q * D + M, (points_meet ? r : q) * D + L) =
-                    dP(i, M)[static_cast<int>(q)];
+                room.moduli(i, j)(q * n + M, (points_meet ? r : q) * n + L) =
+                    dP(of_M.first, of_M.second)[static_cast<int>(q)];
+            }
         }
     const auto m = static_cast<Eigen::Index>(particles.size());
     std::vector<std::pair<Index, Real>> extension;
@@ -242,17 +278,22 @@ void StressPointForce<D, Rule>::add_stiffness(const Motion& motion, std::span<co
     auto block = element.resize(size);
     for (int i = 0; i < D; ++i)
       for (int j = i; j < D; ++j) {
-        GC.noalias() = G * room.moduli(i, j);
-        block.block(i * m, j * m, m, m).noalias() = GC * G.transpose();
+        GC.noalias() = gradients_of(i) * room.moduli(i, j);
+        block.block(i * m, j * m, m, m).noalias() = GC * gradients_of(j).transpose();
       }
+    hold_on_axis(particles, block);
     if (k < 0) return;
     const Tensor<Lanes> cofactor = cofactor_of_deformation(H);
     Eigen::VectorXd V = Eigen::VectorXd::Zero(m * D);
     for (int i = 0; i < D; ++i)
       for (Index q = 0; q < points; ++q)
-        for (int L = 0; L < D; ++L)
-          V.segment(i * m, m) +=
-              w[static_cast<int>(q)] * cofactor(i, L)[static_cast<int>(q)] * G.col(q * D + L);
+        for (int L = 0; L < n; ++L) {
+          if (is_none<D>(i, L)) continue;
+          const auto [row, column] = entry_of<D>(i, L);
+          V.segment(i * m, m) += w[static_cast<int>(q)] *
+                                 cofactor(row, column)[static_cast<int>(q)] *
+                                 gradients_of(i).col(q * n + L);
+        }
     const Dual<Real> stiffness = stiffness_of_pressure(g, motion.time, H, shared);
     const Real of_pressure = std::max(stiffness.d, least_share * std::abs(stiffness.v));
     for (std::size_t a = 0; a < extension.size(); ++a) {
@@ -268,6 +309,8 @@ void StressPointForce<D, Rule>::add_stiffness(const Motion& motion, std::span<co
 #define MENISCUS_INSTANTIATE(D, RULE)                                                              \
   template Tensor<Dual<Lanes>> StressPointForce<D, RULE<D>>::stress_change(                        \
       Index, Real, const Tensor<Dual<Lanes>>&, const Shared&) const;                               \
+  template void StressPointForce<D, RULE<D>>::hold_on_axis(std::span<const Index>,                 \
+                                                           Eigen::Map<Eigen::MatrixXd>&) const;    \
   template Dual<Real> StressPointForce<D, RULE<D>>::stiffness_of_pressure(                         \
       Index, Real, const Tensor<Lanes>&, const Shared&) const;                                     \
   template std::vector<Dual<Lanes>> StressPointForce<D, RULE<D>>::pressures(const Motion&,         \

@@ -50,9 +50,7 @@ class Cavity final : public ForceTerm, public AssembledForce {
       at(force, surface_.body().first + A) += dp * at(gradient, A);
   }
 
-  bool has_stiffness() const override {
-    return !vented() && !surface_.body().geometry.grid.revolved;
-  }
+  bool has_stiffness() const override { return !vented(); }
   void announce(StiffnessMatrix& K) override {
     surface_.announce(K);
     if (!has_content()) return;

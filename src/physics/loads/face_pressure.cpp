@@ -71,7 +71,7 @@ class FacePressure final : public ForceTerm, public AssembledForce {
     });
   }
   /// Without a potential the tangent has no symmetry.
-  bool has_stiffness() const override { return has_potential() && !body_.geometry.grid.revolved; }
+  bool has_stiffness() const override { return has_potential(); }
   void announce(StiffnessMatrix& K) override {
     elements_.announce(patches_.rows(), patches_.points_of_pieces(), body_.first, K);
   }

@@ -381,7 +381,11 @@ void PressurePatches<D>::add_stiffness(Index piece, std::span<const Index> point
         }
       }
       for (int a = 0; a < nodes; ++a) {
-        const Mat<D> block = p * at(f.L, a) * at(source, a).T.transpose() * A * at(source, b).T;
+        Mat<D> block = p * at(f.L, a) * at(source, a).T.transpose() * A * at(source, b).T;
+        if (revolved_) {  // the circle grows with x_0
+          block *= 2 * std::numbers::pi * here.X[0];
+          block.col(0) += 2 * std::numbers::pi * p * at(f.L, a) * at(f.L, b) * area_normal<D>(here);
+        }
         for (int i = 0; i < D; ++i)
           for (int j = 0; j < D; ++j)
             M(i * Q + at(position, a), j * Q + at(position, b)) += block(i, j);

@@ -3,6 +3,7 @@
 #include "physics/surface/closed_surface.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace meniscus {
 namespace {
@@ -36,21 +37,41 @@ void ClosedSurface<D>::add_volume_stiffness(const Placed& placed, Real factor,
     std::array<Lanes, 3> x, N{Lanes::zero(), Lanes::zero(), Lanes::zero()};
     for (int k = 0; k < 3; ++k) at(x, k) = w * (at(points.x, k) - at(placed.mean_x, k));
     for (int k = 0; k < D; ++k) at(N, k) = at(N_, g * D + k);
-    for (int i = 0; i < D; ++i)
-      for (int L = 0; L < D; ++L)
+    Lanes per_radius = Lanes::zero();
+    for (int lane = 0; rule_.rows.folded && lane < rule_.count(g); ++lane)
+      per_radius.set(lane, 1 / at(rule_.rows.radius, g * 4 + lane));
+    // F_iL as number b of component a: in a body of revolution F_22 = x_0 / X_0.
+    struct Number {
+      int component, number;
+      Lanes factor;
+    };
+    const auto number_of = [&](int i, int L) -> std::optional<Number> {
+      if (i < D && L < D) return Number{i, L + 1, Lanes(1.0)};
+      if (rule_.rows.folded && i == 2 && L == 2) return Number{0, 0, per_radius};
+      return std::nullopt;
+    };
+    for (int i = 0; i < 3; ++i)
+      for (int L = 0; L < 3; ++L) {
+        const auto first = number_of(i, L);
+        if (!first) continue;
         for (int j = 0; j < 3; ++j)
-          for (int M = 0; M < 3; ++M)
+          for (int M = 0; M < 3; ++M) {
+            const auto second = number_of(j, M);
             for (int k = 0; k < 3; ++k)
               for (int P = 0; P < 3; ++P) {
                 const Real sign = permutation(i, j, k) * permutation(L, M, P);
                 if (sign == 0) continue;
                 if (k < D) {
-                  const Lanes change = sign * w * points.F(j, M) * at(N, P);
-                  moduli(k, 0, i, L + 1) += change;
-                  moduli(i, L + 1, k, 0) += change;
+                  const Lanes change = sign * w * points.F(j, M) * at(N, P) * first->factor;
+                  moduli(k, 0, first->component, first->number) += change;
+                  moduli(first->component, first->number, k, 0) += change;
                 }
-                if (j < D && M < D) moduli(i, L + 1, j, M + 1) += sign * at(x, k) * at(N, P);
+                if (second)
+                  moduli(first->component, first->number, second->component, second->number) +=
+                      sign * at(x, k) * at(N, P) * first->factor * second->factor;
               }
+          }
+      }
   });
 }
 
