@@ -17,6 +17,13 @@ constexpr Real cosine_of_turn = -0.5;  // cosine of 120 degrees
 constexpr Real between_points = 0.98;  // the surface may be nearer than its sampled points
 constexpr Real largest_growth = 2.6;   // growth of supports in ParticleSet::ensure_quality
 
+/// The image of a vector on the other side of the axis x = 0.
+template <int D>
+Vec<D> beyond_axis(Vec<D> x) {
+  x[0] = -x[0];
+  return x;
+}
+
 /// The points of a surface grouped by facets, so that most facets are skipped as a whole.
 template <int D>
 class PointsOfFacets {
@@ -93,9 +100,13 @@ WallReport keep_supports_in_wall(ParticleSet<D>& particles, const Geometry<D>& g
   parallel_for(particles.size(), [&](Index A) {
     const Vec<D>& X = at(particles.X(), A);
     const Real radius = largest_growth * at(asked_for, A);
-    surface.for_turned(X, geometry.director(X), cosine_of_turn, radius, [&](Real distance) {
+    const Vec<D> normal = geometry.director(X);
+    const auto keep = [&](Real distance) {
       if (distance <= radius) at(limit, A) = std::min(at(limit, A), between_points * distance);
-    });
+    };
+    surface.for_turned(X, normal, cosine_of_turn, radius, keep);
+    if (geometry.grid.revolved)  // the wall on the other side of the axis
+      surface.for_turned(beyond_axis<D>(X), beyond_axis<D>(normal), cosine_of_turn, radius, keep);
   });
   WallReport report;
   report.shortened = particles.limit_supports(std::move(limit));

@@ -9,7 +9,9 @@
 namespace meniscus::profile_table {
 namespace {
 
-struct Profile final : Load<3> {
+template <int D>
+struct Profile final : Load<D> {
+  static constexpr bool revolves = true;
   static constexpr std::string_view example = "body = \"shell\"\nr = [0, 2]\nz = [0.8, 0]\n";
   std::string body, label;
   std::vector<Real> r, z;
@@ -22,24 +24,28 @@ struct Profile final : Load<3> {
                       "their heights above the middle plane; the profile is symmetric"),
             text_row("label", &Profile::label, "what pictures call it", "given profile")};
   }
-  std::optional<Identity> identity() const override { return {{"body", body}}; }
+  std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }
 
-  void check(const Block& block, const BodyPlans<3>& bodies) const override {
-    const BodyPlan<3>* planned = require_body(block, bodies, body);
+  void check(const Block& block, const BodyPlans<D>& bodies) const override {
+    const BodyPlan<D>* planned = require_body(block, bodies, body);
     if (planned && !is_hollow(planned->geometry))
       block.problem("body", fmt::format("'{}' is not a shell", body));
+    else if (planned && space_dimension(planned->geometry.grid) == 2)
+      block.problem(
+          "body",
+          fmt::format("'{}' is in the plane; allowed are bodies in space or of revolution", body));
     if (r.size() != z.size() || r.empty())
       block.problem("z",
                     fmt::format("has {} numbers, but r has {}; allowed are as many, at least 1",
                                 z.size(), r.size()));
   }
-  void build(Assembly<3>& assembly) const override {
+  void build(Assembly<D>& assembly) const override {
     assembly.measure(body, profile_rms(assembly.body(body), r, z));
   }
 };
 
-const bool registered = register_load_in<3, Profile>("profile", Stage::surface,
-                                                     "measure: distance from a known profile (3D)");
+const bool registered = register_load<Profile>(
+    "profile", Stage::surface, "measure: distance from a known profile of a shell of revolution");
 
 }  // namespace
 }  // namespace meniscus::profile_table

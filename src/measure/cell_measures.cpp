@@ -24,15 +24,16 @@ T& built(std::optional<T>& part, Arguments&&... arguments) {
 }
 
 /// `micrometre`: one um in units of the scene.
+template <int D>
 class CellShape {
  public:
-  CellShape(const Body<3>& body, Real micrometre) : body_(body), micrometre_(micrometre) {}
+  CellShape(const Body<D>& body, Real micrometre) : body_(body), micrometre_(micrometre) {}
 
   MeanMeridian meridian(const Motion& m) { return built(meridians_, body_).mean(m); }
-  ClosedSurface<3>::Size outer(const Motion& m) {
+  typename ClosedSurface<D>::Size outer(const Motion& m) {
     return built(outer_, body_, SurfacePart::outer, 2).size(m);
   }
-  ClosedSurface<3>::Size inner(const Motion& m) {
+  typename ClosedSurface<D>::Size inner(const Motion& m) {
     return built(inner_, body_, SurfacePart::inner, 2).size(m);
   }
   struct Thickest {
@@ -76,66 +77,74 @@ class CellShape {
   }
 
  private:
-  const Body<3>& body_;
+  const Body<D>& body_;
   Real micrometre_;
-  std::optional<Meridians> meridians_;
-  std::optional<ClosedSurface<3>> outer_, inner_;
+  std::optional<Meridians<D>> meridians_;
+  std::optional<ClosedSurface<D>> outer_, inner_;
 };
 
 }  // namespace
 
-std::vector<MeasureSource> cell_measures(const Body<3>& body, const UnitSystem& units) {
-  if (!is_hollow(body.geometry)) return {};
-  const auto shape = std::make_shared<CellShape>(body, 1e-6 / units.in_si(dimension::length));
+template <int D>
+std::vector<MeasureSource> cell_measures(const Body<D>& body, const UnitSystem& units) {
+  if (!is_hollow(body.geometry) || body.space() == 2) return {};
+  using Shape = CellShape<D>;
+  const auto shape = std::make_shared<Shape>(body, 1e-6 / units.in_si(dimension::length));
   std::vector<MeasureSource> measures;
   const auto add = [&](const char* name, Dimension unit, const char* meaning, auto compute) {
     measures.push_back(
         {name, unit, meaning, [shape, compute](const Motion& m) { return compute(*shape, m); }});
   };
   add("diameter", dimension::length, "largest diameter of the mean meridian",
-      [](CellShape& s, const Motion& m) { return 2 * s.meridian(m).radius(); });
+      [](Shape& s, const Motion& m) { return 2 * s.meridian(m).radius(); });
   add("pole_thickness", dimension::length, "outer thickness on the axis",
-      [](CellShape& s, const Motion& m) { return s.meridian(m).thickness(0); });
+      [](Shape& s, const Motion& m) { return s.meridian(m).thickness(0); });
   add("largest_thickness", dimension::length, "largest outer thickness",
-      [](CellShape& s, const Motion& m) { return s.thickest(s.meridian(m)).thickness; });
+      [](Shape& s, const Motion& m) { return s.thickest(s.meridian(m)).thickness; });
   add("thickness_ratio", dimension::none, "pole_thickness / largest_thickness",
-      [](CellShape& s, const Motion& m) {
+      [](Shape& s, const Motion& m) {
         const MeanMeridian meridian = s.meridian(m);
         return meridian.thickness(0) / s.thickest(meridian).thickness;
       });
   add("thickest_at", dimension::none, "radius of the largest thickness / outer radius",
-      [](CellShape& s, const Motion& m) { return s.thickest(s.meridian(m)).x; });
+      [](Shape& s, const Motion& m) { return s.thickest(s.meridian(m)).x; });
   add("asymmetry", dimension::none,
       "range of heights of the middle surface within 0.95 of the radius / largest_thickness",
-      [](CellShape& s, const Motion& m) { return s.asymmetry(s.meridian(m)); });
-  add("rim_spread", dimension::none, "standard deviation / mean of the radius around the rim",
-      [](CellShape& s, const Motion& m) { return s.rim_spread(s.meridian(m)); });
+      [](Shape& s, const Motion& m) { return s.asymmetry(s.meridian(m)); });
+  if (D == 3)
+    add("rim_spread", dimension::none, "standard deviation / mean of the radius around the rim",
+        [](Shape& s, const Motion& m) { return s.rim_spread(s.meridian(m)); });
   add("evans_fung_rms", dimension::length,
       "rms difference of the thickness from Evans and Fung 1972 after scaling to 7.82 um",
-      [](CellShape& s, const Motion& m) { return s.evans_fung_rms(s.meridian(m)); });
+      [](Shape& s, const Motion& m) { return s.evans_fung_rms(s.meridian(m)); });
   add("outer_volume", dimension::volume, "volume within the outer surface",
-      [](CellShape& s, const Motion& m) { return s.outer(m).volume; });
+      [](Shape& s, const Motion& m) { return s.outer(m).volume; });
   add("outer_area", dimension::area, "area of the outer surface",
-      [](CellShape& s, const Motion& m) { return s.outer(m).area; });
+      [](Shape& s, const Motion& m) { return s.outer(m).area; });
   add("reduced_volume", dimension::none,
       "outer_volume / that of a sphere with the area of the outer surface",
-      [](CellShape& s, const Motion& m) {
+      [](Shape& s, const Motion& m) {
         const auto outer = s.outer(m);
         return 6 * std::sqrt(std::numbers::pi) * outer.volume / std::pow(outer.area, 1.5);
       });
   add("cavity_volume", dimension::volume, "volume within the inner surface",
-      [](CellShape& s, const Motion& m) { return s.inner(m).volume; });
+      [](Shape& s, const Motion& m) { return s.inner(m).volume; });
   add("cavity_area", dimension::area, "area of the inner surface",
-      [](CellShape& s, const Motion& m) { return s.inner(m).area; });
+      [](Shape& s, const Motion& m) { return s.inner(m).area; });
   return measures;
 }
 
+template std::vector<MeasureSource> cell_measures(const Body<2>&, const UnitSystem&);
+template std::vector<MeasureSource> cell_measures(const Body<3>&, const UnitSystem&);
+
 namespace {
-const bool cell_measures_registered = register_measures("shell", nullptr, cell_measures);
+const bool cell_measures_registered =
+    register_measures("shell", cell_measures<2>, cell_measures<3>);
 }
 
-MeasureSource profile_rms(const Body<3>& body, std::vector<Real> r, std::vector<Real> z) {
-  const auto meridians = std::make_shared<std::optional<Meridians>>();
+template <int D>
+MeasureSource profile_rms(const Body<D>& body, std::vector<Real> r, std::vector<Real> z) {
+  const auto meridians = std::make_shared<std::optional<Meridians<D>>>();
   return {
       "profile_rms", dimension::length, "rms distance of a given profile from the mean meridian",
       [&body, meridians, r = std::move(r), z = std::move(z)](const Motion& m) {
@@ -146,5 +155,8 @@ MeasureSource profile_rms(const Body<3>& body, std::vector<Real> r, std::vector<
         return std::sqrt(sum / (2 * static_cast<Real>(r.size())));
       }};
 }
+
+template MeasureSource profile_rms(const Body<2>&, std::vector<Real>, std::vector<Real>);
+template MeasureSource profile_rms(const Body<3>&, std::vector<Real>, std::vector<Real>);
 
 }  // namespace meniscus

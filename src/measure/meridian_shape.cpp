@@ -14,7 +14,8 @@ namespace meniscus {
 
 namespace {
 
-constexpr int meridians = 24;
+template <int D>
+constexpr int meridians = D == 3 ? 24 : 1;
 constexpr int points_of_meridian = 193;  // number of points, including both poles
 
 /// The value of z at the first crossing of the curve with r = where, by linear interpolation.
@@ -68,49 +69,62 @@ Real evans_fung_thickness(Real x) {
   return std::sqrt(std::max(0.0, 1 - x2)) * (0.81 + 7.83 * x2 - 4.39 * x2 * x2);
 }
 
-Meridians::Meridians(const Body<3>& body) : body_(body), centre_(Vec<3>::Zero()) {
-  const SmoothMap<3>& map = mapped_patches(*body.geometry.surface).map();
+template <int D>
+Meridians<D>::Meridians(const Body<D>& body) : body_(body), centre_(Vec<D>::Zero()) {
+  const SmoothMap<D>& map = mapped_patches(*body.geometry.surface).map();
   Real total = 0;
-  for (int m = 0; m < meridians; ++m)
+  for (int m = 0; m < meridians<D>; ++m)
     for (int k = 0; k < points_of_meridian; ++k) {
-      const Real phi = 2 * std::numbers::pi * (m + 0.5) / meridians;
+      const Real phi = 2 * std::numbers::pi * (m + 0.5) / meridians<D>;
       const Real theta = std::numbers::pi * k / (points_of_meridian - 1);
-      const Vec<3> direction(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                             std::cos(theta));
+      Vec<D> direction;
+      direction[0] = std::sin(theta);
+      if constexpr (D == 3) {
+        direction[0] *= std::cos(phi);
+        direction[1] = std::sin(theta) * std::sin(phi);
+      }
+      direction[D - 1] = std::cos(theta);
       X_.push_back(map(direction).x);
       weight_.push_back(std::sin(theta));
       total += weight_.back();
       centre_ += weight_.back() * X_.back();
     }
   centre_ /= total;
+  if (D == 2) centre_[0] = 0;
   for (Real& w : weight_) w /= total;
-  rows_ = build_point_rows<3>(body.particles, X_, {.value = true}, body.name);
+  rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
 }
 
-MeanMeridian Meridians::mean(const Motion& motion) const {
+template <int D>
+MeanMeridian Meridians<D>::mean(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  std::vector<Vec<3>> x(X_.size());
+  std::vector<Vec<D>> x(X_.size());
   parallel_for(static_cast<Index>(x.size()), [&](Index q) {
     const Lanes displacement = value_at(rows_, q, u);
-    for (int i = 0; i < 3; ++i) at(x, q)[i] = at(X_, q)[i] + displacement[i];
+    for (int i = 0; i < D; ++i) at(x, q)[i] = at(X_, q)[i] + displacement[i];
   });
-  Vec<3> centre = Vec<3>::Zero();
+  Vec<D> centre = Vec<D>::Zero();
   for (std::size_t q = 0; q < x.size(); ++q) centre += weight_[q] * x[q];
-  Mat<3> moment = Mat<3>::Zero();
-  for (std::size_t q = 0; q < x.size(); ++q)
-    moment += weight_[q] * (x[q] - centre) * (X_[q] - centre_).transpose();
-  const Mat<3> back = best_rotation(moment).transpose();
+  Mat<D> back = Mat<D>::Identity();
+  if constexpr (D == 3) {
+    Mat<3> moment = Mat<3>::Zero();
+    for (std::size_t q = 0; q < x.size(); ++q)
+      moment += weight_[q] * (x[q] - centre) * (X_[q] - centre_).transpose();
+    back = best_rotation(moment).transpose();
+  } else {
+    centre[0] = 0;
+  }
 
   MeanMeridian mean;
   mean.r.assign(points_of_meridian, 0);
   mean.z.assign(points_of_meridian, 0);
-  for (std::size_t m = 0; m < meridians; ++m) {
+  for (std::size_t m = 0; m < meridians<D>; ++m) {
     std::vector<Real> r;
     for (std::size_t k = 0; k < points_of_meridian; ++k) {
-      const Vec<3> y = back * (x[m * points_of_meridian + k] - centre);
-      r.push_back(std::hypot(y[0], y[1]));
-      mean.r[k] += r.back() / meridians;
-      mean.z[k] += y[2] / meridians;
+      const Vec<D> y = back * (x[m * points_of_meridian + k] - centre);
+      r.push_back(D == 3 ? std::hypot(y[0], y[1]) : y[0]);
+      mean.r[k] += r.back() / meridians<D>;
+      mean.z[k] += y[D - 1] / meridians<D>;
     }
     mean.rim_radius.push_back(vertex(r, largest_inside(r)));
   }
@@ -119,5 +133,8 @@ MeanMeridian Meridians::mean(const Motion& motion) const {
   mean.radius_at_rim = vertex(mean.r, mean.rim);
   return mean;
 }
+
+template class Meridians<2>;
+template class Meridians<3>;
 
 }  // namespace meniscus

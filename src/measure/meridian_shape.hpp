@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mean meridian of a body whose reference is a body of revolution about z, in axes of the body.
+// The mean meridian of a body whose reference is a body of revolution about its last axis (z; y in
+// the half plane), in axes of the body.
 #pragma once
 #include "body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
@@ -29,18 +30,20 @@ struct MeanMeridian {
   Real radius_at_rim = 0;
 };
 
-/// Points on the meridians of the outer surface, which must be a mapped sphere.
+/// Points on the meridians of the outer surface, which must be a mapped sphere. In the half plane
+/// there is one meridian, which moves along the axis.
+template <int D>
 class Meridians {
  public:
-  explicit Meridians(const Body<3>& body);
+  explicit Meridians(const Body<D>& body);
   MeanMeridian mean(const Motion& motion) const;
 
  private:
-  const Body<3>& body_;
-  std::vector<Vec<3>> X_;  // [meridian][point]
+  const Body<D>& body_;
+  std::vector<Vec<D>> X_;  // [meridian][point]
   std::vector<Real> weight_;
-  Vec<3> centre_;
-  PointRows<3> rows_;
+  Vec<D> centre_;
+  PointRows<D> rows_;
 };
 
 /// Full thickness of a red blood cell of diameter 7.82 um at r = x 3.91 um (Evans and Fung 1972),

@@ -286,6 +286,7 @@ void Simulation<D>::refuse_impossible_surfaces() const {
     const int space = scene_.system.bodies[b].space();
     const Real ratio = isoperimetric_ratio(area, volume, space);
     if (tension.inscribed() || ratio >= 1 - bearable) continue;
+    refuse(scene_.surfaces);  // a crossing names the cause better
     throw SolveError(fmt::format(
         "step {}, t = {:.9g}: body '{}' has the isoperimetric ratio {:.6f}: the {} {:.6g} of its "
         "surface tension is below the least possible {:.6g} for its {}; the surface is no longer "

@@ -58,13 +58,19 @@ std::string example_heading(int D, const std::string& time) {
   return fmt::format("dimension = {}\n[time]\nend = 1e3\ncheck_every = 20\n{}", D, time);
 }
 
+std::string revolved_heading(const std::string& time) {
+  return "dimension = \"axisymmetric\"\n[time]\nend = 1e3\ncheck_every = 20\n" + time;
+}
+
 std::string scene_with_load(int D, const std::string& name, const std::string& lines) {
   const auto named = [&](const char* body) { return lines.find(body) != std::string::npos; };
-  const std::string bodies = named("\"shell\"")   ? one_shell()
+  const bool shell = named("\"shell\"");
+  const std::string bodies = shell                ? one_shell()
                              : named("\"other\"") ? two_drops(D)
                              : named("\"flat\"")  ? sessile_drop(D)
                                                   : one_drop(D);
-  return example_heading(D) + bodies + "[[" + name + "]]\n" + lines;
+  return (D == 2 && shell ? revolved_heading() : example_heading(D)) + bodies + "[[" + name +
+         "]]\n" + lines;
 }
 
 std::string legacy_contact(int D) {

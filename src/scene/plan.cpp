@@ -267,15 +267,6 @@ void plan_loads(const Block& root, const LoadEntry<D>& kind, std::set<std::strin
   }
 }
 
-/// Reports loads that exist in the other dimension only, so that they are not called unknown.
-template <int D>
-void refuse_loads_of_other_dimension(const Block& root) {
-  constexpr int other = 5 - D;
-  for (const auto& [name, kind] : loads<other>())
-    if (!loads<D>().find(name) && !root.tables(name).empty())
-      root.problem(name, fmt::format("[[{}]] is for bodies in {} dimensions", name, other));
-}
-
 /// Reads all loads in the order in which they are built.
 template <int D>
 void plan_loads(const Block& root, Plan<D>& plan) {
@@ -283,7 +274,6 @@ void plan_loads(const Block& root, Plan<D>& plan) {
   for (const Stage stage : {Stage::surface, Stage::volume, Stage::contact, Stage::measure})
     for (const auto& [name, kind] : loads<D>())
       if (kind.stage == stage) plan_loads(root, kind, claims, plan);
-  refuse_loads_of_other_dimension<D>(root);
 }
 
 /// Names of all bodies and loads that may have measures.

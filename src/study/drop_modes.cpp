@@ -12,6 +12,27 @@
 namespace meniscus::drop_modes_study {
 namespace {
 
+/// Levels at which a geometry is measured, and from which the rate is asked to be `within` its
+/// error.
+struct Levels {
+  int asked_from, finest;
+  Real within;
+};
+
+void measure(StudyRun& study, const study::DropMode& mode, const Levels& levels) {
+  const std::string method =
+      fmt::format("{}l = {}, Oh = {:g}", mode.revolved ? "half plane, " : "", mode.l, mode.Oh);
+  int level = 0;
+  for (const int cells : study.levels())
+    if (cells <= levels.finest) {
+      study.record(study::measure_drop_mode(method, mode, cells));
+      level = cells;
+    }
+  if (level >= levels.asked_from)
+    study.require(fmt::format("{}: error of the rate, level {}", method, level),
+                  study.measurements().back().error("rate"), {0, levels.within});
+}
+
 void run(StudyRun& study) {
   const Real bulk_modulus =
       study.settings().real("bulk_modulus", dimension::none, range::positive, 400);
@@ -24,24 +45,24 @@ void run(StudyRun& study) {
   }
   for (study::DropMode& mode : modes) {
     mode.bulk_modulus = bulk_modulus;
-    const std::string method = fmt::format("l = {}, Oh = {:g}", mode.l, mode.Oh);
-    for (const int core : study.levels())
-      study.record(study::measure_drop_mode(method, mode, core));
-    const Measurement& finest = study.measurements().back();
-    if (finest.level >= 6)
-      study.require(finest.method + ": error of the rate, " + std::to_string(finest.level) +
-                        " cells per edge of the core",
-                    finest.error("rate"), {0, 0.02});
+    measure(study, mode, {6, 10, 0.02});
+  }
+  std::vector<study::DropMode> revolved{{2, 0.2}};
+  if (!study.brief()) revolved = {{2, 0.2}, {3, 0.2}, {4, 0.2}, {2, 0.93}, {3, 0.93}, {4, 0.93}};
+  for (study::DropMode& mode : revolved) {
+    mode.bulk_modulus = 10 * bulk_modulus;
+    mode.revolved = true;
+    measure(study, mode, {16, 16, 0.003});
   }
 }
 
-const bool registered = register_entry(
-    StudyEntry{"drop_modes",
-               "viscous drop: decay rate and frequency of small oscillations, l = 2 and 3",
-               "cells per edge of the core of the ball",
-               {4, 6, 8, 10},
-               {4, 6},
-               run});
+const bool registered =
+    register_entry(StudyEntry{"drop_modes",
+                              "viscous drop: decay rate and frequency of small oscillations",
+                              "cells across the radius, and along an edge of the core of the ball",
+                              {4, 6, 8, 10, 12, 16},
+                              {4, 6},
+                              run});
 
 }  // namespace
 }  // namespace meniscus::drop_modes_study

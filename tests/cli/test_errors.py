@@ -294,9 +294,13 @@ class Scenes(ProgramTest):
                  "'log(x)' is not a number at x = -")):
             self.assert_refused(DROP + f'[[surface]]\nbody = "drop"\n[surface.law]\n{law}\n', *words)
 
-    def test_loads_of_space(self):
-        self.assert_refused(SHEET + '[[profile]]\nbody = "sheet"\nr = [1]\nz = [0]\n',
-                            "scene.toml:16:1: profile", "[[profile]] is for bodies in 3 dimensions")
+    def test_profiles_of_plane_shells(self):
+        profile = '[[profile]]\nbody = "sheet"\nr = [1]\nz = [0]\n'
+        self.assert_refused(SHEET + profile, "scene.toml:17:8: profile[0].body", "'sheet' is not a shell")
+        shell = SHEET.replace('"rectangle"\nsize = [1, 2]\ncells = [5, 10]',
+                              '"sphere_shell"\nradius = 1\nthickness = 0.4\nspacing = 0.3')
+        self.assert_refused(shell + profile, "scene.toml:18:8: profile[0].body", "'sheet' is in the plane",
+                            "allowed are bodies in space or of revolution")
 
     def test_long_formulas_are_not_repeated(self):
         """A message about a long formula has the begin and the end of the formula, the place and the reason."""

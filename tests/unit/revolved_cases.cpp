@@ -14,16 +14,12 @@
 namespace meniscus::test {
 namespace {
 
-std::string heading(const std::string& time = "") {
-  return "dimension = \"axisymmetric\"\n[time]\nend = 1e3\ncheck_every = 20\n" + time;
-}
-
 /// A motion without symmetry but that about the axis.
 constexpr const char* about_axis =
     "initial_velocity = [\"0.1*x*(1 + 0.5*y)\", \"-0.2*y + 0.05 + 0.1*x^2\"]\n";
 
 std::string ball(const std::string& material) {
-  return heading() + example_ball(2, "drop") + about_axis + material;
+  return revolved_heading() + example_ball(2, "drop") + about_axis + material;
 }
 
 constexpr const char* tension =
@@ -95,8 +91,8 @@ void add_loads(std::vector<Case>& cases) {
   add("probe", example_solid(),
       "[[probe]]\nname = \"tip\"\nbody = \"drop\"\nat = [0.05, 0.3]\n"
       "fields = [\"displacement\", \"velocity\", \"pressure\"]\n");
-  const std::string sessile =
-      heading() + sessile_drop(2, about_axis) + "[[wetted]]\nbody = \"drop\"\nface = \"flat\"\n";
+  const std::string sessile = revolved_heading() + sessile_drop(2, about_axis) +
+                              "[[wetted]]\nbody = \"drop\"\nface = \"flat\"\n";
   cases.push_back({"revolved wetted face", sessile + "tension = 0.3\n", {}, true});
   cases.push_back({"revolved wetted face that moves, with friction",
                    sessile + "contact_angle = 70\nline_friction = 0.3\n"
@@ -104,8 +100,9 @@ void add_loads(std::vector<Case>& cases) {
                    {},
                    true});
   cases.push_back({"revolved implicit viscosity",
-                   heading("viscosity = \"implicit\"\n") + example_ball(2, "drop") + about_axis +
-                       example_liquid() + "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n",
+                   revolved_heading("viscosity = \"implicit\"\n") + example_ball(2, "drop") +
+                       about_axis + example_liquid() +
+                       "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n",
                    {},
                    true});
 }
@@ -136,19 +133,21 @@ std::vector<Case> revolved_cases() {
       stiff = "material = { type = \"neo_hookean\", density = 1, mu = 3, lambda = 3e3 }\n";
   cases.push_back({"revolved nearly incompressible solid", ball(stiff), {true, false}, true});
   for (const auto& [name, solver] : Registry<StepperEntry>::all())
-    cases.push_back(
-        {"revolved solver " + name,
-         heading("solver = \"" + name + "\"\n") + example_ball(2, "drop") + about_axis + soft,
-         {true, false},
-         true});
+    cases.push_back({"revolved solver " + name,
+                     revolved_heading("solver = \"" + name + "\"\n") + example_ball(2, "drop") +
+                         about_axis + soft,
+                     {true, false},
+                     true});
   for (const auto& [shape, lines] :
        {std::pair("rectangle", "size = [1, 2]\nspacing = 0.25\ncentre = [0.5, 0]\n"),
         std::pair("ring", "radius = 1\nthickness = 0.4\naround = 24\nlayers = 3\n"),
         std::pair("half_disk", "radius = 1\ncore = 6\nrings = 3\n"),
-        std::pair("ellipse", "semi_axes = [1, 1.4]\ncore = 6\nrings = 3\n")})
+        std::pair("ellipse", "semi_axes = [1, 1.4]\ncore = 6\nrings = 3\n"),
+        std::pair("disk_shell", "radius = 2\nheight = 1.6\nthickness = 0.4\nspacing = 0.6\n"),
+        std::pair("sphere_shell", "radius = 1\nthickness = 0.4\nspacing = 0.3\n")})
     cases.push_back({std::string("revolved ") + shape,
-                     heading() + "[[body]]\nname = \"body\"\nshape = \"" + shape + "\"\n" + lines +
-                         about_axis + soft,
+                     revolved_heading() + "[[body]]\nname = \"body\"\nshape = \"" + shape + "\"\n" +
+                         lines + about_axis + soft,
                      {true, false},
                      true});
   return cases;

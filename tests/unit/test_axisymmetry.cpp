@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace meniscus::test_axisymmetry {
@@ -169,6 +170,49 @@ TEST(Axisymmetry, VolumesAndMassesAreThoseOfSpace) {
 }
 
 /// Half a disk and a disk of which the other half is left out are the same.
+/// In a shell with a small cavity, the opposite wall may lie beyond the axis.
+TEST(Axisymmetry, KernelsDoNotReachAcrossACavity) {
+  const std::string shell =
+      solid("shape = \"sphere_shell\"\nradius = 1\nthickness = 0.8\nspacing = 0.25\n");
+  const Scene<2> half = test::scene_of<2>(heading() + shell),
+                 whole = test::scene_of<2>("dimension = 2\n[time]\nend = 1\n" + shell);
+  const auto &of_half = half.system.bodies.front().particles,
+             &of_whole = whole.system.bodies.front().particles;
+  Real least = 1, most = 0;
+  for (Index A = 0; A < of_half.size(); ++A) {
+    Index same = 0;
+    for (Index B = 1; B < of_whole.size(); ++B)
+      if ((at(of_whole.X(), B) - at(of_half.X(), A)).norm() <
+          (at(of_whole.X(), same) - at(of_half.X(), A)).norm())
+        same = B;
+    EXPECT_NEAR(at(of_half.support(), A), at(of_whole.support(), same), 1e-12);
+    least = std::min(least, at(of_half.support(), A));
+    most = std::max(most, at(of_half.support(), A));
+  }
+  EXPECT_LT(least, 0.7 * most);  // some are shortened
+}
+
+TEST(Axisymmetry, ShellsHaveTheMeasuresOfCells) {
+  Scene<2> scene =
+      test::scene_of<2>(heading() +
+                        solid("shape = \"disk_shell\"\nradius = 5\nheight = 3\nthickness = 0.5\n"
+                              "spacing = 0.25\n") +
+                        "[[profile]]\nbody = \"body\"\nr = [0, 1, 2]\nz = [1.6, 1.6, 1.6]\n");
+  const NodalVectors rest(static_cast<std::size_t>(scene.system.size()), Lanes::zero());
+  const std::map<std::string, std::pair<Real, Real>> expected{
+      {"diameter", {10, 1e-4}},           {"pole_thickness", {3, 1e-9}},
+      {"asymmetry", {0, 1e-9}},           {"largest_thickness", {3, 1e-9}},
+      {"profile_rms", {0.1, 1e-9}},       {"outer_area", {208.87419, 0.02}},
+      {"outer_volume", {207.31380, 0.04}}};
+  std::size_t found = 0;
+  for (const MeasureSource& m : scene.measures)
+    if (const auto e = expected.find(m.name.substr(m.name.find('.') + 1)); e != expected.end()) {
+      ++found;
+      EXPECT_NEAR(m.compute({0, rest, rest}), e->second.first, e->second.second) << m.name;
+    }
+  EXPECT_EQ(found, expected.size());
+}
+
 TEST(Axisymmetry, WhatIsBeyondTheAxisIsLeftOut) {
   const Geometry<2> whole = test::disk(6, 3), half = half_plane(whole);
   EXPECT_EQ(half.grid.cell_count() * 2, whole.grid.cell_count());
@@ -202,6 +246,9 @@ TEST(Axisymmetry, WhatIsNotOfRevolutionIsRefused) {
                  "dimension: 'axisymetric' is unknown; allowed is axisymmetric");
   expect_refused(body + "[[held]]\nbody = \"body\"\nwhere = \"y > 0\"\nangle = 0.1\n",
                  "held[0].angle: turns the face out of a body of revolution");
+  expect_refused(heading() + solid("shape = \"disk\"\nradius = 1\ncentre = [1.2, 0]\n"
+                                   "initial_displacement = [-0.5, 0]\n"),
+                 "is beyond the axis x = 0: the body pinches off or closes over its axis");
 }
 
 }  // namespace

@@ -39,27 +39,32 @@ def in_own_axes(body, x):
     centre, reference = weight @ x, weight @ body.X
     moment = (weight[:, None] * (x - centre)).T @ (body.X - reference)
     u, _, v = np.linalg.svd(moment)
-    rotation = u @ np.diag([1, 1, np.linalg.det(u @ v)]) @ v
-    return (x - centre) @ rotation
+    u[:, -1] *= np.linalg.det(u @ v)
+    return (x - centre) @ u @ v
+
+
+def outline(body, x):
+    """Lines of the section through the axis, which the plane of a body of revolution shows."""
+    return x[body.surface] if x.shape[1] == 2 else sections.outline(body, x, Meridian(body))
 
 
 def picture(run, body):
     factor, unit = style.scale(run.length_unit, body.X)
-    plane = Meridian(body)
     figure, (axis, beside) = plt.subplots(
         1, 2, figsize=(8.2, 2.9), width_ratios=[2, 1], layout="constrained"
     )
     frames = [0, len(run.frames) - 1]
     for frame, color, text in zip(frames, ("0.75", style.COLORS[0]), ("start", "end")):
         x = in_own_axes(body, run.points(frame, body))
-        lines = sections.outline(body, x, plane) * factor
         axis.add_collection(
-            plt.matplotlib.collections.LineCollection(lines, colors=color, lw=1.6, zorder=2)
+            plt.matplotlib.collections.LineCollection(
+                outline(body, x) * factor, colors=color, lw=1.6, zorder=2
+            )
         )
         time_factor, time_unit = style.scale(run.time_unit, run.times)
         time = style.time_text(run.times[frame], time_unit, time_factor)
         axis.plot([], [], color=color, label=f"{text}, {time}")
-    radius = factor * np.abs(x[:, plane.axes[0]]).max()  # radius in the last frame
+    radius = factor * np.abs(x[:, 0]).max()  # radius in the last frame
     r = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))  # dense where the curve is steep
     half = evans_fung(np.abs(r)) / 7.82 * radius
     for side in (1, -1):
@@ -75,7 +80,24 @@ def picture(run, body):
     return figure
 
 
+class Revolved:
+    """The surface of a body of revolution in space, from its section in the plane."""
+
+    def __init__(self, body, x):
+        self.settings, self.spacing = body.settings, body.spacing
+        edges = body.surface[(x[body.surface][:, :, 0] >= 0).all(axis=1)]
+        turns = np.linspace(0, 2 * np.pi, 49)
+        self.X = np.concatenate(
+            [np.stack([x[:, 0] * np.cos(t), x[:, 0] * np.sin(t), x[:, 1]], axis=1) for t in turns]
+        )
+        first = np.concatenate([edges[:, ::-1] + k * len(x) for k in range(len(turns) - 1)])
+        self.surface = np.concatenate([first, first + len(x)], axis=1)
+
+
 def draw_solid(body, x, axis):
+    if x.shape[1] == 2:
+        body = Revolved(body, x)
+        x = body.X
     seen = x @ surfaces.view([body]).T
     axis.add_collection(surfaces.facets([body], [seen]))
     axis.set_aspect("equal")

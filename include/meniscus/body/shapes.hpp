@@ -3,6 +3,7 @@
 // like those below and the line `const bool registered = register_shape<D, MyShape>();`.
 #pragma once
 #include "body/shapes/geometry.hpp"
+#include "body/shapes/meridian.hpp"
 #include "input/key_table.hpp"
 #include "input/registry.hpp"
 
@@ -86,6 +87,7 @@ struct DiskShell : Wall {
   Real radius = 1, height = 0.5;
 
   static Rows<DiskShell> rows();
+  Meridian meridian() const;  ///< of the outer surface; throws InputError if there is none
   Geometry<3> geometry() const;
 };
 
@@ -97,6 +99,7 @@ struct CylinderShell : Wall {
   Real radius = 1, height = 1, edge_radius = 0.5;
 
   static Rows<CylinderShell> rows();
+  Meridian meridian() const;  ///< of the outer surface; throws InputError if there is none
   Geometry<3> geometry() const;
 };
 
@@ -108,6 +111,7 @@ struct SpheroidShell : Wall {
   Real radius = 1, height = 1;
 
   static Rows<SpheroidShell> rows();
+  Meridian meridian() const;  ///< of the outer surface; throws InputError if there is none
   Geometry<3> geometry() const;
 };
 
@@ -118,6 +122,7 @@ struct SphereShell : Wall {
   Real radius = 1;
 
   static Rows<SphereShell> rows();
+  Meridian meridian() const;  ///< of the outer surface; throws InputError if there is none
   Geometry<3> geometry() const;
 };
 

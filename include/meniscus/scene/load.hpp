@@ -111,24 +111,24 @@ bool register_load_in(std::string_view name, Stage stage, std::string_view meani
   static const std::string heading = "[[" + std::string(name) + "]]: " + std::string(meaning);
   static const std::string example =
       "[[" + std::string(name) + "]]\n" + std::string(example_of<L>());
-  LoadEntry<D> entry{name, example_of<L>(), stage, requires {L::revolves;
-}
-, nullptr, nullptr
-};  // namespace meniscus
-entry.keys = [] {
-  std::vector<KeyTable> tables{{heading, key_texts(L::rows()), example}};
-  if constexpr (requires { L::inner_tables(); })
-    for (KeyTable& table : L::inner_tables()) tables.push_back(std::move(table));
-  return tables;
-};
-entry.read = [](const Block& block) -> std::unique_ptr<Load<D>> {
-  auto load = std::make_unique<L>();
-  for (const auto& row : L::rows()) row.read(*load, block);
-  if constexpr (requires { load->read_inner(block); }) load->read_inner(block);
-  load->place = block.place();
-  return load;
-};
-return register_entry(std::move(entry));
+  constexpr bool revolves = requires {
+    L::revolves;
+  };
+  LoadEntry<D> entry{name, example_of<L>(), stage, revolves, nullptr, nullptr};
+  entry.keys = [] {
+    std::vector<KeyTable> tables{{heading, key_texts(L::rows()), example}};
+    if constexpr (requires { L::inner_tables(); })
+      for (KeyTable& table : L::inner_tables()) tables.push_back(std::move(table));
+    return tables;
+  };
+  entry.read = [](const Block& block) -> std::unique_ptr<Load<D>> {
+    auto load = std::make_unique<L>();
+    for (const auto& row : L::rows()) row.read(*load, block);
+    if constexpr (requires { load->read_inner(block); }) load->read_inner(block);
+    load->place = block.place();
+    return load;
+  };
+  return register_entry(std::move(entry));
 }
 
 /// Registers the load L<D> in 2D and 3D.

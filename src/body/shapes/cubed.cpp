@@ -213,4 +213,21 @@ Grid<D> upper_half(const Grid<D>& whole, int axis) {
 template Grid<2> upper_half(const Grid<2>&, int);
 template Grid<3> upper_half(const Grid<3>&, int);
 
+/// The directions of a cell are around and outwards, ordered so that they are right-handed.
+Grid<2> unit_ring(int around, int layers, Real inside) {
+  Grid<2> grid;
+  for (int layer = 0; layer <= layers; ++layer)
+    for (int k = 0; k < around; ++k) {
+      const Real angle = 2 * std::numbers::pi * k / around,
+                 r = inside + (1 - inside) * layer / layers;
+      grid.X.emplace_back(r * std::cos(angle), r * std::sin(angle));
+    }
+  for (int layer = 0; layer < layers; ++layer)
+    for (int k = 0; k < around; ++k) {
+      const Index low = layer * around, next = (k + 1) % around;
+      grid.cells.push_back({low + k, low + around + k, low + next, low + around + next});
+    }
+  return grid;
+}
+
 }  // namespace meniscus

@@ -39,4 +39,8 @@ Grid<D> upper_half(const Grid<D>& whole, int axis = D - 1);
 /// cells. n >= 1 and layers >= 1.
 Grid<3> cubed_shell(int n, int layers, Real inner_radius);
 
+/// The ring between the circles of radius `inside` and 1, with nodes at angles of 2 pi k / around
+/// from x.
+Grid<2> unit_ring(int around, int layers, Real inside);
+
 }  // namespace meniscus

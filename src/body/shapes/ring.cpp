@@ -1,34 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ring: the cross section of a thick-walled cylinder.
 #include "body/shapes/cell_count.hpp"
+#include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 
-#include <cmath>
-#include <numbers>
-
 namespace meniscus {
 namespace {
-
-/// The ring between the circles of radius `inside` and 1. The directions of a cell are around and
-/// outwards, ordered so that they are right-handed.
-Grid<2> unit_ring(int around, int layers, Real inside) {
-  Grid<2> grid;
-  for (int layer = 0; layer <= layers; ++layer)
-    for (int k = 0; k < around; ++k) {
-      const Real angle = 2 * std::numbers::pi * k / around,
-                 r = inside + (1 - inside) * layer / layers;
-      grid.X.emplace_back(r * std::cos(angle), r * std::sin(angle));
-    }
-  for (int layer = 0; layer < layers; ++layer)
-    for (int k = 0; k < around; ++k) {
-      const Index low = layer * around, next = (k + 1) % around;
-      grid.cells.push_back({low + k, low + around + k, low + next, low + around + next});
-    }
-  return grid;
-}
 
 const bool ring_registered = register_shape<2, Ring>();
 

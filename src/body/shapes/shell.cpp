@@ -38,9 +38,37 @@ Geometry<3> wall_of(const Wall& shell, const Meridian& meridian) {
                    Vec<3>::Map(shell.centre.data()));
 }
 
+/// The section of a shell through its axis, along y of the plane: the shell itself as a body of
+/// revolution.
+template <class Shell>
+struct Section : Shell {
+  static constexpr const char* name = Shell::name;
+  static constexpr const char* meaning =
+      "section through the axis of a shell of that name in 3D; a body of revolution is that shell";
+  static constexpr std::string_view example = Shell::example;
+
+  static Rows<Section> rows() {
+    Rows<Section> rows;
+    for (const Row<Shell>& row : Shell::rows())
+      if (row.key != "centre")
+        rows.push_back(
+            {row.key, row.type, row.unit, row.range, row.fallback, row.meaning,
+             [read = row.read](Section& section, const Block& block) { read(section, block); }});
+    rows.push_back(reals_row<Section>("centre", &Section::centre, 2, dimension::length, range::any,
+                                      "centre", std::vector<Real>{0, 0}));
+    return rows;
+  }
+  Geometry<2> geometry() const {
+    return make_wall_section(this->meridian(), this->thickness, this->layers, this->spacing,
+                             Vec<2>::Map(this->centre.data()));
+  }
+};
+
 const bool shell_registered =
     register_shape<3, DiskShell>() && register_shape<3, CylinderShell>() &&
-    register_shape<3, SpheroidShell>() && register_shape<3, SphereShell>();
+    register_shape<3, SpheroidShell>() && register_shape<3, SphereShell>() &&
+    register_shape<2, Section<DiskShell>>() && register_shape<2, Section<CylinderShell>>() &&
+    register_shape<2, Section<SpheroidShell>>() && register_shape<2, Section<SphereShell>>();
 
 }  // namespace
 
@@ -52,11 +80,15 @@ Rows<DiskShell> DiskShell::rows() {
 }
 
 Geometry<3> DiskShell::geometry() const {
+  return wall_of(*this, meridian());
+}
+
+Meridian DiskShell::meridian() const {
   if (height > 2 * radius)
     throw InputError(fmt::format(
         "a disk of radius {:g} cannot have a round rim of the height {:g}: at most {:g}", radius,
         height, 2 * radius));
-  return wall_of(*this, rounded_cylinder_meridian(radius, height, 0.5 * height));
+  return rounded_cylinder_meridian(radius, height, 0.5 * height);
 }
 
 Rows<CylinderShell> CylinderShell::rows() {
@@ -70,11 +102,15 @@ Rows<CylinderShell> CylinderShell::rows() {
 }
 
 Geometry<3> CylinderShell::geometry() const {
+  return wall_of(*this, meridian());
+}
+
+Meridian CylinderShell::meridian() const {
   const Real largest = std::min(radius, 0.5 * height);
   if (edge_radius > largest)
     throw InputError(fmt::format("the edge radius is {:g}, but the cylinder allows at most {:g}",
                                  edge_radius, largest));
-  return wall_of(*this, rounded_cylinder_meridian(radius, height, edge_radius));
+  return rounded_cylinder_meridian(radius, height, edge_radius);
 }
 
 Rows<SpheroidShell> SpheroidShell::rows() {
@@ -85,7 +121,11 @@ Rows<SpheroidShell> SpheroidShell::rows() {
 }
 
 Geometry<3> SpheroidShell::geometry() const {
-  return wall_of(*this, spheroid_meridian(radius, height));
+  return wall_of(*this, meridian());
+}
+
+Meridian SpheroidShell::meridian() const {
+  return spheroid_meridian(radius, height);
 }
 
 Rows<SphereShell> SphereShell::rows() {
@@ -94,7 +134,11 @@ Rows<SphereShell> SphereShell::rows() {
 }
 
 Geometry<3> SphereShell::geometry() const {
-  return wall_of(*this, rounded_cylinder_meridian(radius, 2 * radius, radius));
+  return wall_of(*this, meridian());
+}
+
+Meridian SphereShell::meridian() const {
+  return rounded_cylinder_meridian(radius, 2 * radius, radius);
 }
 
 }  // namespace meniscus

@@ -8,8 +8,10 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace meniscus {
 
@@ -82,13 +84,56 @@ SmoothMap<3> wall_map(Meridian meridian, Real thickness, const Vec<3>& centre) {
   });
 }
 
-Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real spacing,
-                      const Vec<3>& centre) {
+namespace {
+
+void require_inner_surface(const Meridian& meridian, Real thickness) {
   if (!(thickness < meridian.smallest_radius))
     throw InputError(
         fmt::format("a wall {:g} thick has no smooth inner surface: the outer one is bent to a "
                     "radius of {:g}, which must be larger than the thickness",
                     thickness, meridian.smallest_radius));
+}
+
+/// The map in the plane through the axis: places (x, 0, y) of space.
+SmoothMap<2> section_of(SmoothMap<3> map, const Vec<2>& centre) {
+  return [map = std::move(map), centre](const Vec<2>& X) {
+    const MapPoint<3> p = map({X[0], 0, X[1]});
+    constexpr std::array<int, 2> axis{0, 2};
+    MapPoint<2> point;
+    for (int i = 0; i < 2; ++i) {
+      point.x[i] = centre[i] + p.x[at(axis, i)];
+      for (int j = 0; j < 2; ++j) {
+        point.F(i, j) = p.F(at(axis, i), at(axis, j));
+        for (int k = 0; k < 2; ++k)
+          at(point.G, i)(j, k) = at(p.G, at(axis, i))(at(axis, j), at(axis, k));
+      }
+    }
+    return point;
+  };
+}
+
+}  // namespace
+
+Geometry<2> make_wall_section(const Meridian& meridian, Real thickness, int layers, Real spacing,
+                              const Vec<2>& centre) {
+  require_inner_surface(meridian, thickness);
+  const Real cells = cells_along(meridian.length, spacing);  // of a quarter
+  require_affordable<2>(4 * cells * layers);
+  Geometry<2> geometry =
+      make_geometry<2>(unit_ring(4 * static_cast<int>(cells), layers - 1, unit_wall_inside),
+                       {SurfacePatch<2>::sphere(Vec<2>::Zero(), 1).named("outer"),
+                        SurfacePatch<2>::cavity(Vec<2>::Zero(), unit_wall_inside).named("inner")},
+                       true, section_of(wall_map(meridian, thickness, Vec<3>::Zero()), centre));
+  geometry.director = [=](const Vec<2>& X) -> Vec<2> {
+    const Vec<2> arm = X - centre, n = meridian.normal(Vec<2>(arm.cwiseAbs()));
+    return Vec<2>(std::copysign(n[0], arm[0]), std::copysign(n[1], arm[1])).normalized();
+  };
+  return geometry;
+}
+
+Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real spacing,
+                      const Vec<3>& centre) {
+  require_inner_surface(meridian, thickness);
   // A quarter of a great circle crosses as many cells as there are along an edge of a face of the
   // cube.
   const Real cells = cells_along(meridian.length, spacing);

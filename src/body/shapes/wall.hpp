@@ -18,4 +18,8 @@ inline constexpr Real unit_wall_inside = 0.5;
 Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real spacing,
                       const Vec<3>& centre);
 
+/// The section of the wall through its axis, which is along y.
+Geometry<2> make_wall_section(const Meridian& meridian, Real thickness, int layers, Real spacing,
+                              const Vec<2>& centre);
+
 }  // namespace meniscus

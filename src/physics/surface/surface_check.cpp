@@ -129,8 +129,21 @@ std::optional<Failure> SurfaceCheck<D>::find(const Motion& motion) const {
 
 template <int D>
 std::optional<Failure> SurfaceCheck<D>::crossing_at(const std::vector<Vec<D>>& x) const {
+  if (revolved())
+    if (auto failure = beyond_axis(x)) return failure;
   const auto crossing = search_->deepest(x);
   return crossing ? std::optional(describe(*crossing, x)) : std::nullopt;
+}
+
+template <int D>
+std::optional<Failure> SurfaceCheck<D>::beyond_axis(const std::vector<Vec<D>>& x) const {
+  const auto farthest = std::min_element(
+      x.begin(), x.end(), [](const Vec<D>& a, const Vec<D>& b) { return a[0] < b[0]; });
+  if (!((*farthest)[0] < 0)) return std::nullopt;
+  const Place& place = place_[static_cast<std::size_t>(farthest - x.begin())];
+  return Failure{at(bodies_, place.body)->first + place.particle,
+                 "is beyond the axis x = 0: the body pinches off or closes over its axis, which is "
+                 "not modelled; end before, or let a partner on the axis keep it away"};
 }
 
 template <int D>

@@ -24,8 +24,8 @@ class SurfaceCheck {
   SurfaceCheck(std::vector<const Body<D>*> bodies,
                std::function<std::string(std::size_t, std::size_t)> remedy);
 
-  /// The deepest crossing. If there is none, a face that is turned inside out. All processes call
-  /// this and get the same result.
+  /// A place beyond the axis of a body of revolution; else the deepest crossing; else a face that
+  /// is turned inside out. All processes call this and get the same result.
   std::optional<Failure> find(const Motion& motion) const;
   /// Like find(), but does not look for faces that are turned inside out.
   std::optional<Failure> crossing(const Motion& motion) const {
@@ -40,6 +40,7 @@ class SurfaceCheck {
   bool revolved() const { return bodies_.front()->geometry.grid.revolved; }
   std::vector<Vec<D>> places(const Motion& motion) const;
   std::optional<Failure> crossing_at(const std::vector<Vec<D>>& x) const;
+  std::optional<Failure> beyond_axis(const std::vector<Vec<D>>& x) const;
   std::optional<Failure> turned_face(const std::vector<Vec<D>>& x) const;
   Failure describe(const Crossing<D>& crossing, const std::vector<Vec<D>>& x) const;
   std::string particles_of(Index simplex) const;

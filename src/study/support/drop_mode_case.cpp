@@ -13,36 +13,51 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace meniscus::study {
 namespace {
 
+/// The gradient of r^l P_l as formulas of z and q^2, the squared distance from the axis: across the
+/// axis divided by q, and along it.
+std::pair<std::string, std::string> potential_flow(int l, const std::string& z,
+                                                   const std::string& q2) {
+  if (l == 2) return {"-1", "2*" + z};
+  if (l == 3) return {"-3*" + z, fmt::format("3*{}^2 - 1.5*{}", z, q2)};
+  return {fmt::format("1.5*{1} - 6*{0}^2", z, q2), fmt::format("4*{0}^3 - 6*{0}*{1}", z, q2)};
+}
+
 // R = rho = gamma = 1: time is in units of sqrt(rho R^3 / gamma). K (1 - J) = 2 is the Laplace
 // pressure. The reference is larger by J^(-1/3), so that the drop starts in equilibrium at R = 1.
+template <int D>
 std::string scene_text(const DropMode& mode, int core, Real end) {
   const Real J = 1 - 2 / mode.bulk_modulus, stretch = std::cbrt(J);
-  constexpr Real displacement = 0.02;  // approximate amplitude at the pole
+  constexpr Real displacement = 0.004;  // approximate amplitude at the pole
   // The speed grows with r^(l-1). In coordinates of the reference this gives a factor
   // stretch^(l-1).
   const Real speed = displacement * std::sqrt(Real(mode.l * (mode.l - 1) * (mode.l + 2))) *
                      std::pow(stretch, mode.l - 1) / mode.l;
-  const std::string velocity =
-      mode.l == 2 ? fmt::format("[\"-{0:.17g}*x\", \"-{0:.17g}*y\", \"2*{0:.17g}*z\"]", speed)
-                  : fmt::format(
-                        "[\"-3*{0:.17g}*x*z\", \"-3*{0:.17g}*y*z\", "
-                        "\"{0:.17g}*(3*z^2 - 1.5*(x^2 + y^2))\"]",
-                        speed);
+  const auto vector = [](Real factor, const std::string& across_axis, const std::string& on_axis) {
+    const auto component = [&](const std::string& of) {
+      return fmt::format("\"{:.17g}*({})\"", factor, of);
+    };
+    std::string text = "[" + component("x*(" + across_axis + ")") + ", ";
+    if (D == 3) text += component("y*(" + across_axis + ")") + ", ";
+    return text + component(on_axis) + "]";
+  };
+  const std::string z = D == 3 ? "z" : "y";
+  const auto [across, along] = potential_flow(mode.l, z, D == 3 ? "(x^2 + y^2)" : "x^2");
   return fmt::format(R"toml(
-dimension = 3
+dimension = {10}
 time = {{ end = {0:.17g} }}
 [[body]]
 name = "drop"
-shape = "ball"
+shape = "{11}"
 radius = {1:.17g}
 core = {2}
-layers = {3}
+{12} = {3}
 {9}
-initial_displacement = ["{4:.17g}*x", "{4:.17g}*y", "{4:.17g}*z"]
+initial_displacement = {4}
 initial_velocity = {5}
 [body.material]
 type = "newtonian"
@@ -54,14 +69,17 @@ viscosity = {8:.17g}
 body = "drop"
 gamma = 1
 )toml",
-                     end, 1 / stretch, core, std::max(1, core / 2), stretch - 1, velocity, J,
-                     mode.bulk_modulus, mode.Oh, mode.body_keys);
+                     end, 1 / stretch, core, std::max(1, core / 2), vector(stretch - 1, "1", z),
+                     vector(speed, across, along), J, mode.bulk_modulus, mode.Oh, mode.body_keys,
+                     D == 3 ? "3" : "\"axisymmetric\"", D == 3 ? "ball" : "disk",
+                     D == 3 ? "layers" : "rings");
 }
 
-/// Amplitude of P_l about z of the surface particles, by least squares with P_0 to P_4.
+/// Amplitude of P_l about the last axis of the surface particles, by least squares with P_0 to P_4.
+template <int D>
 class Amplitude {
  public:
-  Amplitude(const Body<3>& body, int l)
+  Amplitude(const Body<D>& body, int l)
       : body_(body), particles_(boundary_nodes(body.geometry.grid)), l_(l) {}
 
   Real operator()(const Motion& motion) const {
@@ -70,8 +88,9 @@ class Amplitude {
     Vector right = Vector::Zero();
     for (const Index A : particles_) {
       const Lanes u = value_at(body_.at_particles, A, motion.u.data());
-      const Vec<3> x = at(body_.particles.X(), A) + Vec<3>(u[0], u[1], u[2]);
-      const Real r = x.norm(), c = x[2] / r, c2 = c * c;
+      Vec<D> x = at(body_.particles.X(), A);
+      for (int i = 0; i < D; ++i) x[i] += u[i];
+      const Real r = x.norm(), c = x[D - 1] / r, c2 = c * c;
       Vector P;
       P << 1, c, 1.5 * c2 - 0.5, c * (2.5 * c2 - 1.5), (35 * c2 * c2 - 30 * c2 + 3) / 8;
       normal += P * P.transpose();
@@ -81,17 +100,17 @@ class Amplitude {
   }
 
  private:
-  const Body<3>& body_;
+  const Body<D>& body_;
   std::vector<Index> particles_;
   int l_;
 };
 
 /// The time span from which the rate is fitted. It begins when the slowest vortical mode, with a
-/// rate of about 30 nu/R^2, has fallen by e^-4, and lasts three decay times or two periods.
+/// rate of about 30 nu/R^2, has fallen by e^-7, and lasts three decay times or two periods.
 struct TimeInterval {
   Real begin, end;
   static TimeInterval of(const DropMode& mode, Complex s) {
-    const Real begin = 4 / (30 * mode.Oh);
+    const Real begin = 7 / (30 * mode.Oh);
     Real length = 3 / -s.real();
     if (s.imag() > 0) length = std::min(length, 4 * std::numbers::pi / s.imag());
     return {begin, begin + length};
@@ -115,9 +134,8 @@ Complex fitted_rate(const std::vector<Real>& a, Real interval) {
   return {s.real(), std::abs(s.imag())};
 }
 
-}  // namespace
-
-Measurement measure_drop_mode(const std::string& method, const DropMode& mode, int core) {
+template <int D>
+Measurement measure(const std::string& method, const DropMode& mode, int core) {
   const Complex exact = drop_mode_rate(mode.l, mode.Oh);
   const TimeInterval interval_of_time = TimeInterval::of(mode, exact);
   constexpr int samples = 24;
@@ -125,23 +143,23 @@ Measurement measure_drop_mode(const std::string& method, const DropMode& mode, i
 
   const Stopwatch set_up;
   const SceneInput input =
-      SceneInput::from_text(scene_text(mode, core, interval_of_time.end + interval));
+      SceneInput::from_text(scene_text<D>(mode, core, interval_of_time.end + interval));
   scene_dimension(input);
-  Scene<3> scene = build_scene<3>(input);
-  const Body<3>& body = scene.system.bodies.front();
-  Simulation<3> simulation(scene);
+  Scene<D> scene = build_scene<D>(input);
+  const Body<D>& body = scene.system.bodies.front();
+  Simulation<D> simulation(scene);
   simulation.begin();
 
   Measurement result;
   result.method = method;
   result.level = core;
   result.particles = body.size();
-  result.h = 1 / std::cbrt(Real(body.size()));
+  result.h = std::pow(Real(body.size()), -1.0 / D);
   result.bytes = scene.system.bytes();
   result.set_up = set_up.seconds();
 
   const Stopwatch run;
-  const Amplitude amplitude(body, mode.l);
+  const Amplitude<D> amplitude(body, mode.l);
   std::vector<Real> fitted;
   Real before = amplitude(simulation.state().motion()), time_before = 0,
        next = interval_of_time.begin;
@@ -163,6 +181,12 @@ Measurement measure_drop_mode(const std::string& method, const DropMode& mode, i
     result.values.insert(result.values.end(),
                          {{"frequency", s.imag()}, {"exact frequency", exact.imag()}});
   return result;
+}
+
+}  // namespace
+
+Measurement measure_drop_mode(const std::string& method, const DropMode& mode, int core) {
+  return mode.revolved ? measure<2>(method, mode, core) : measure<3>(method, mode, core);
 }
 
 }  // namespace meniscus::study
