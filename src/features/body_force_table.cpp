@@ -10,7 +10,6 @@ namespace {
 
 template <int D>
 struct BodyForce final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       D == 3 ? "body = \"drop\"\nacceleration = [\"0.1*x*cos(t)\", 0, -1]\n"
              : "body = \"drop\"\nacceleration = [\"0.1*x*cos(t)\", -1]\n";

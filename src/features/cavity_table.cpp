@@ -38,7 +38,6 @@ Rows<Keys> Keys::rows() {
 
 template <int D>
 struct Cavity final : Load<D>, Keys {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       "body = \"drop\"\nsurface = \"outer\"\npressure = 0.3\n";
   std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }

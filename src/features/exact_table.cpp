@@ -8,7 +8,6 @@ namespace {
 
 template <int D>
 struct Exact final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       D == 3
           ? "body = \"drop\"\ndisplacement = [\"0.1*t\", 0, 0]\nvelocity = [0.1, 0, 0]\nrate = 1\n"

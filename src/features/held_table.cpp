@@ -18,7 +18,6 @@ namespace {
 
 template <int D>
 struct Held final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       D == 3 ? "body = \"drop\"\nwhere = \"z < -0.9\"\ndisplacement = [0, 0, \"0.01*sin(t)\"]\n"
              : "body = \"drop\"\nwhere = \"y < -0.9\"\ndisplacement = [0, \"0.01*sin(t)\"]\n";

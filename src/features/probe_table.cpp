@@ -171,7 +171,6 @@ class Inside {
 
 template <int D>
 struct Probe final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       D == 3 ? "name = \"tip\"\nbody = \"drop\"\nat = [0.2, 0.3, 0]\n"
              : "name = \"tip\"\nbody = \"drop\"\nat = [0.2, 0.3]\n";

@@ -11,7 +11,6 @@ namespace {
 
 template <int D>
 struct Profile final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example = "body = \"shell\"\nr = [0, 2]\nz = [0.8, 0]\n";
   std::string body, label;
   std::vector<Real> r, z;

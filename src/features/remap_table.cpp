@@ -11,7 +11,6 @@ namespace {
 
 template <int D>
 struct Remaps final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example = "body = \"drop\"\nat = [0.1]\n";
   std::string body, nodes;
   std::vector<Real> at;

@@ -8,7 +8,6 @@ namespace {
 
 template <int D>
 struct SolidViscosity final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example = "body = \"other\"\nshear = 0.2\nvolumetric = 0.1\n";
   std::string body;
   Real shear = 0, volumetric = 0;

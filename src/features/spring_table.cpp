@@ -62,9 +62,13 @@ struct Spring final : Load<D> {
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     require_plain_name(block, name);
     if (at_a_place()) {
-      require_body(block, bodies, face.body);
+      const BodyPlan<D>* planned = require_body(block, bodies, face.body);
+      const bool revolves = planned && planned->geometry.grid.revolved;
       if (at_place.size() != D)
         block.problem("at", fmt::format("has {} numbers; allowed are {}", at_place.size(), D));
+      if (revolves && at_place.front() < 0)
+        block.problem(
+            "at", fmt::format("has x = {:g}, beyond the axis; allowed is >= 0", at_place.front()));
       if (!face.face.empty() || face.where) block.problem("at", "goes without face and where");
     } else {
       face.check(block, bodies);

@@ -45,7 +45,6 @@ struct Keys {
 
 template <int D>
 struct Surface final : Load<D>, Keys {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       "body = \"drop\"\n[surface.law]\ntype = \"tension\"\ngamma = 1\n";
   /// The resource that a table claims: a body can have one tension, and at most one law of every

@@ -49,7 +49,6 @@ Rows<Keys> Keys::rows() {
 
 template <int D>
 struct SurfaceTension final : Load<D>, Keys {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example = "body = \"drop\"\ngamma = 1\n";
   std::optional<typename Load<D>::Identity> identity() const override {
     return {{face.empty() ? "body" : "face", label()}};

@@ -12,7 +12,6 @@ namespace {
 
 template <int D>
 struct Traction final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       "body = \"drop\"\nwhere = \"y < -0.5\"\npressure = \"0.1*(1 + x)*cos(t)\"\n";
   std::string name;

@@ -22,7 +22,6 @@ namespace {
 
 template <int D>
 struct Wetted final : Load<D> {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       "body = \"drop\"\nface = \"flat\"\ncontact_angle = 70\nline_friction = 0.2\n";
   std::string name, body, face;

@@ -5,15 +5,20 @@
 
 namespace meniscus {
 
+/// N_A of an entry of the rows, for each component.
+template <int D>
+Lanes shape_at(const PointRows<D>& rows, Offset entry) {
+  const Real even = at(rows.value, entry);
+  return Lanes(rows.folded ? at(rows.odd_value, entry) : even, even, even, even);
+}
+
 /// sum_A N_A f_A at point q, for folded rows.
 template <int D>
 [[gnu::noinline]] NodalVector folded_value_at(const PointRows<D>& rows, Index q,
                                               const NodalVector* field) {
   Lanes sum = Lanes::zero();
-  for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
-    const Real even = at(rows.value, e);
-    sum += Lanes(at(rows.odd_value, e), even, even, even) * field[at(rows.particle, e)];
-  }
+  for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
+    sum += shape_at(rows, e) * field[at(rows.particle, e)];
   return sum;
 }
 
@@ -114,10 +119,8 @@ template <int D>
 void scatter_value(const PointRows<D>& rows, Index q, NodalVector x, NodalVector* field) {
   if constexpr (D == 2)
     if (rows.folded) {
-      for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
-        const Real even = at(rows.value, e);
-        field[at(rows.particle, e)] += Lanes(at(rows.odd_value, e), even, even, even) * x;
-      }
+      for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
+        field[at(rows.particle, e)] += shape_at(rows, e) * x;
       return;
     }
   for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)

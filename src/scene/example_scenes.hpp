@@ -27,7 +27,7 @@ std::string example_nematic(int D);
 
 /// The lines of a scene before its bodies. `time` has further lines of [time].
 std::string example_heading(int D, const std::string& time = "");
-/// The same of a body of revolution in the half plane.
+/// The lines of the scene of a body of revolution before its body.
 std::string revolved_heading(const std::string& time = "");
 /// A scene with the load [[name]], given by `lines`, and the bodies that these lines refer to.
 std::string scene_with_load(int D, const std::string& name, const std::string& lines);

@@ -243,14 +243,7 @@ template <int D>
 void plan_loads(const Block& root, const LoadEntry<D>& kind, std::set<std::string>& claims,
                 Plan<D>& plan) {
   std::set<std::string> identities;
-  const bool refused = !kind.revolves && root.is_text("dimension");
   for (const Block& block : root.tables(kind.name)) {
-    if (refused) {
-      block.problem("", fmt::format("[[{}]] does not know bodies of revolution; allowed is it with "
-                                    "dimension = 2 or 3",
-                                    kind.name));
-      continue;
-    }
     std::unique_ptr<Load<D>> load = kind.read(block);
     load->check(block, plan.bodies);
     load->prepare(plan.bodies);

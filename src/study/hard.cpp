@@ -155,6 +155,7 @@ void run(StudyRun& study) {
   study::hard_nematics(cases);
   study::hard_wetting(cases);
   study::hard_contact(cases);
+  study::hard_revolved(cases);
   if (study.checks().empty()) throw InputError("cases: no case has this in its name");
 }
 

@@ -84,6 +84,11 @@ void add_loads(std::vector<Case>& cases) {
        {}});
   add("held face", example_solid(),
       "[[held]]\nbody = \"drop\"\nwhere = \"y < -0.8\"\ndisplacement = [0, \"0.01*sin(t)\"]\n");
+  for (const char* where : {"where = \"y > 0.5\"\nstiffness = 3\ndamping = 0.2\n",
+                            "at = [0.4, 0.3]\nconstant = 3\nresistance = 0.2\n"})
+    add(std::string("spring, ") + where, example_solid(),
+        std::string("[[spring]]\nbody = \"drop\"\nramp = [0, 0.2]\n") + where +
+            "displacement = [\"0.1*x\", 0.1]\n");
   const std::string cavity = "[[cavity]]\nbody = \"drop\"\nsurface = \"outer\"\n";
   add("cavity with a pressure", example_solid(), cavity + "pressure = 0.3\n");
   add("cavity with a content", example_solid(),

@@ -233,8 +233,8 @@ TEST(Axisymmetry, WhatIsNotOfRevolutionIsRefused) {
   expect_refused(body + solid(ball), "body[1]: bodies of revolution do not touch each other");
   expect_refused(body + "[[body_force]]\nbody = \"body\"\nacceleration = [1, 0]\n",
                  "body_force[0].acceleration: acts across the axis of revolution");
-  expect_refused(body + "[[spring]]\nbody = \"body\"\nwhere = \"y > 0.8\"\nstiffness = 3\n",
-                 "[[spring]] does not know bodies of revolution");
+  expect_refused(body + "[[spring]]\nbody = \"body\"\nat = [-0.1, 0.5]\nconstant = 3\n",
+                 "spring[0].at: has x = -0.1, beyond the axis; allowed is >= 0");
   const std::string contact = body +
                               "[[contact]]\nbodies = [\"body\"]\nadhesion = 0.1\noffset = 0.2\n"
                               "range = 0.3\n[contact.partner]\n";

@@ -2,10 +2,11 @@
 // Loads: force terms and measures of the bodies of a scene. Each kind of load has a table [[name]].
 //
 // A load has its own file in src/features, in an anonymous namespace. It is a struct MyLoad<D> with
-// the members that rows() reads, check(), build(), and an example. If it knows bodies of
-// revolution, it says `static constexpr bool revolves = true`. The file ends with
+// the members that rows() reads, check(), build(), and an example. The file ends with
 //   const bool registered = register_load<MyLoad>("my_load", Stage::volume, "short description");
-// No other code refers to the load by name.
+// No other code refers to the load by name. D = 2 includes bodies of revolution in the half plane
+// (space_dimension(grid) == 3): rows, face cells and patches know them, check() refuses what is not
+// of revolution.
 #pragma once
 #include "body/shapes/geometry.hpp"
 #include "body/surface/wetted_wall.hpp"
@@ -91,7 +92,6 @@ struct LoadEntry {
   std::string_view name;  ///< name of its tables: [[name]]
   std::string_view example;
   Stage stage;
-  bool revolves;  ///< knows bodies of revolution
   std::vector<KeyTable> (*keys)();
   std::unique_ptr<Load<D>> (*read)(
       const Block&);  ///< reads the keys of rows(); check() does the rest
@@ -111,10 +111,7 @@ bool register_load_in(std::string_view name, Stage stage, std::string_view meani
   static const std::string heading = "[[" + std::string(name) + "]]: " + std::string(meaning);
   static const std::string example =
       "[[" + std::string(name) + "]]\n" + std::string(example_of<L>());
-  constexpr bool revolves = requires {
-    L::revolves;
-  };
-  LoadEntry<D> entry{name, example_of<L>(), stage, revolves, nullptr, nullptr};
+  LoadEntry<D> entry{name, example_of<L>(), stage, nullptr, nullptr};
   entry.keys = [] {
     std::vector<KeyTable> tables{{heading, key_texts(L::rows()), example}};
     if constexpr (requires { L::inner_tables(); })

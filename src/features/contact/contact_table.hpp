@@ -75,7 +75,6 @@ std::vector<KeyTable> tables_of_parts();
 
 template <int D>
 struct Contact final : Load<D>, Keys {
-  static constexpr bool revolves = true;
   static constexpr std::string_view example =
       "bodies = [\"drop\", \"other\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\n";
   std::unique_ptr<const ContactModel<D>> model;

@@ -40,18 +40,16 @@ class CoefficientDamping final : public ForceTerm {
                  });
   }
   void add_viscous_diagonal(Forces diagonal) override {
-    chunk_sums_.accumulate(
-        body_.part(diagonal), [&](int, Index begin, Index end, NodalVector* sum) {
-          const PointRows<D>& rows = body_.at_particles;
-          for (Index A = begin; A < end; ++A)
-            for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
-              const Index B = at(rows.particle, k);
-              const Real e = (A == B ? 1 : 0) - at(rows.value, k);
-              Lanes square = Lanes(e * e);
-              if (rows.folded) square.set(0, std::pow((A == B ? 1 : 0) - at(rows.odd_value, k), 2));
-              sum[B] += at(rate_, A) * square;
-            }
-        });
+    chunk_sums_.accumulate(body_.part(diagonal),
+                           [&](int, Index begin, Index end, NodalVector* sum) {
+                             const PointRows<D>& rows = body_.at_particles;
+                             for (Index A = begin; A < end; ++A)
+                               for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
+                                 const Index B = at(rows.particle, k);
+                                 const Lanes e = Lanes(A == B ? 1.0 : 0.0) - shape_at(rows, k);
+                                 sum[B] += at(rate_, A) * (e * e);
+                               }
+                           });
   }
 
   /// Positions are reproduced, so (I - N) x = (I - N) u.

@@ -76,7 +76,7 @@ class Spring final : public ForceTerm, public AssembledForce {
   void add_viscous_diagonal(Forces diagonal) override {
     for (Index k = 0; k < size(); ++k)
       for (Offset e = at(springs_.mean.start, k); e < at(springs_.mean.start, k + 1); ++e) {
-        const Real C = at(springs_.mean.value, e);
+        const Lanes C = shape_at(springs_.mean, e);
         at(diagonal, body_.first + at(springs_.mean.particle, e)) +=
             at(springs_.damping, k) * C * C * components_;
       }
@@ -105,7 +105,7 @@ class Spring final : public ForceTerm, public AssembledForce {
   }
   std::vector<MeasureSource> measures() const override {
     std::vector<MeasureSource> measures;
-    for (int i = 0; i < D; ++i)
+    for (int i = body_.geometry.grid.revolved ? 1 : 0; i < D; ++i)
       measures.push_back({std::string("force_") + "xyz"[i], of_sum(dimension::force, D),
                           "sum of the forces of the springs on the body",
                           [this, i](const Motion& motion) {

@@ -80,7 +80,7 @@ class LineFriction final : public ForceTerm {
             Vec<D> all = Vec<D>::Zero();
             for (const Mat<D>& C : at(drag_, r).by_point) all += C.diagonal();
             for (Offset e = at(rows_.start, r); e < at(rows_.start, r + 1); ++e) {
-              const Real N = at(rows_.value, e);
+              const Lanes N = shape_at(rows_, e);
               sums[at(rows_.particle, e)] += N * N * lanes(all);
             }
           }

@@ -78,4 +78,7 @@ void hard_wetting(HardCases& cases);
 /// Cases of contact (CGCM notes 7 and 10).
 void hard_contact(HardCases& cases);
 
+/// Cases of bodies of revolution (axisymmetry note).
+void hard_revolved(HardCases& cases);
+
 }  // namespace meniscus::study
