@@ -48,7 +48,9 @@ void run(StudyRun& study) {
     measure(study, mode, {6, 10, 0.02});
   }
   std::vector<study::DropMode> revolved{{2, 0.2}};
-  if (!study.brief()) revolved = {{2, 0.2}, {3, 0.2}, {4, 0.2}, {2, 0.93}, {3, 0.93}, {4, 0.93}};
+  if (!study.brief())
+    revolved = {{2, 0.02}, {4, 0.02}, {2, 0.2},  {3, 0.2},
+                {4, 0.2},  {2, 0.93}, {3, 0.93}, {4, 0.93}};
   for (study::DropMode& mode : revolved) {
     mode.bulk_modulus = 10 * bulk_modulus;
     mode.revolved = true;

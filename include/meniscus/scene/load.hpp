@@ -5,8 +5,8 @@
 // the members that rows() reads, check(), build(), and an example. The file ends with
 //   const bool registered = register_load<MyLoad>("my_load", Stage::volume, "short description");
 // No other code refers to the load by name. D = 2 includes bodies of revolution in the half plane
-// (space_dimension(grid) == 3): rows, face cells and patches know them, check() refuses what is not
-// of revolution.
+// (space_dimension(grid) == 3). Rows, face cells and patches know them; check() refuses a load
+// across the axis.
 #pragma once
 #include "body/shapes/geometry.hpp"
 #include "body/surface/wetted_wall.hpp"

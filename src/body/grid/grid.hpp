@@ -52,7 +52,7 @@ struct Grid {
   std::vector<Bulge<D>> bulges;
   std::vector<Index> bulge_of;  ///< [cell] number of its bulge, or -1
   /// 2D: the grid is the half plane x >= 0 of a body of revolution about the axis x = 0. Its facets
-  /// are those of the body, so none lies on the axis. See half_plane().
+  /// belong to the surface of the body, so none lies on the axis. See half_plane().
   bool revolved = false;
 
   Index node_count() const { return static_cast<Index>(X.size()); }
@@ -69,7 +69,7 @@ struct Grid {
   }
 };
 
-/// What a part of the grid at X counts in the volume or area of the body: the length 2 pi x of its
+/// The factor of a volume or area of the grid at X in that of the body: the length 2 pi x of the
 /// circle about the axis in a body of revolution, else 1.
 template <int D>
 Real circle(const Grid<D>& grid, const Vec<D>& X) {
