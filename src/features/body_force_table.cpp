@@ -25,8 +25,7 @@ struct BodyForce final : Load<D> {
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     const BodyPlan<D>* on = require_body(block, bodies, body);
     if (on && on->geometry.grid.revolved && !is_zero(acceleration.front()))
-      block.problem("acceleration",
-                    "acts across the axis of revolution; allowed is 0 for its component 0");
+      block.problem("acceleration", "acts across the axis of revolution; allowed is 0 for x");
   }
   static bool is_zero(const Expression& a) { return a.constant() && a({0, 0, 0}) == 0; }
   void build(Assembly<D>& assembly) const override {

@@ -55,8 +55,7 @@ struct Traction final : Load<D> {
       block.problem("force", "allowed is one of force, total and pressure");
     const bool revolved = !bodies.empty() && bodies.front().geometry.grid.revolved;
     if (revolved && !total.empty() && !(total[0].constant() && total[0]({0, 0, 0}) == 0))
-      block.problem("total",
-                    "acts across the axis of revolution; allowed is 0 for its component 0");
+      block.problem("total", "acts across the axis of revolution; allowed is 0 for x");
   }
   void prepare(BodyPlans<D>& bodies) const override { face.prepare(bodies); }
   void build(Assembly<D>& assembly) const override {

@@ -76,8 +76,7 @@ struct Wetted final : Load<D> {
       if (planned.settings.name != body || !planned.in_order) continue;
       if (planned.geometry.grid.revolved && !displacement.empty() &&
           !(displacement.front().constant() && displacement.front()({0, 0, 0}) == 0))
-        block.problem("displacement",
-                      "is across the axis of revolution; allowed is 0 for its component 0");
+        block.problem("displacement", "is across the axis of revolution; allowed is 0 for x");
       const std::vector<Vec<D>> X = points_of_face(planned.geometry);
       if (!X.empty() && !wall_through<D>(X, direction()))
         block.problem(

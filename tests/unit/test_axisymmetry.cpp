@@ -242,6 +242,11 @@ TEST(Axisymmetry, WhatIsNotOfRevolutionIsRefused) {
                  "contact[0].partner: is not of revolution about the axis x = 0");
   expect_refused(contact + "type = \"ball\"\ncentre = [0.1, -2]\nradius = 0.8\n",
                  "contact[0].partner: is not of revolution about the axis x = 0");
+  const std::string below = contact + "type = \"ball\"\ncentre = [0, -2]\nradius = 0.8\n";
+  expect_refused(below + "displacement = [\"t\", 0]\n",
+                 "is displaced across the axis of revolution; allowed is 0 for x in displacement");
+  expect_refused(below + "direction = [0.6, 0.8]\nforce = 1\nstiffness = 1\n",
+                 "is pressed across the axis of revolution; allowed is 0 for x in direction");
   expect_refused("dimension = \"axisymetric\"\n[time]\nend = 1\n" + solid(ball),
                  "dimension: 'axisymetric' is unknown; allowed is axisymmetric");
   expect_refused(body + "[[held]]\nbody = \"body\"\nwhere = \"y > 0\"\nangle = 0.1\n",

@@ -38,7 +38,7 @@ struct Entry {
   std::array<ComponentIntegrals, 2> of;  ///< odd component, even component
 };
 
-/// Calls f(X, N, row entry) ... for the rows at the points of one cell.
+/// Sums the integrals of one cell after the other, with the storage of the last.
 class CellSums {
  public:
   explicit CellSums(const Body<2>& body) : body_(body), slot_(body.particles.X().size(), -1) {}

@@ -171,12 +171,10 @@ void Contact<D>::check_revolved(const Block& block) const {
   const auto across = [](const Expression& d) { return !(d.constant() && d({0, 0, 0}) == 0); };
   if (!partner->displacement.empty() && across(partner->displacement.front()))
     block.problem("partner",
-                  "is displaced across the axis of revolution; allowed is 0 for the "
-                  "component 0 of displacement");
+                  "is displaced across the axis of revolution; allowed is 0 for x in displacement");
   if (partner->pressed() && partner->direction.front() != 0)
     block.problem("partner",
-                  "is pressed across the axis of revolution; allowed is 0 for the "
-                  "component 0 of direction");
+                  "is pressed across the axis of revolution; allowed is 0 for x in direction");
 }
 
 template <int D>
