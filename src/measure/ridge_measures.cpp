@@ -52,7 +52,8 @@ class Ridge {
  public:
   Ridge(const Body<D>& drop, const Body<D>& ground, Real contact_gap)
       : drop_(drop), ground_(ground), contact_gap_(contact_gap) {
-    const Vec<D> way = middle(drop) - middle(ground);
+    Vec<D> way = middle(drop) - middle(ground);
+    if (revolved()) way[0] = 0;
     way.cwiseAbs().maxCoeff(&axis_);
     up_ = way[axis_] < 0 ? -1 : 1;
   }
@@ -93,6 +94,7 @@ class Ridge {
     std::vector<Place> drop, face;
   };
 
+  bool revolved() const { return drop_.geometry.grid.revolved; }
   static Vec<D> middle(const Body<D>& body) {
     const auto& X = body.particles.X();
     return std::accumulate(X.begin(), X.end(), Vec<D>(Vec<D>::Zero())) /
@@ -121,6 +123,7 @@ class Ridge {
     const auto count = static_cast<Index>(on_drop_->reference().area.size());
     Vec<D> mean = Vec<D>::Zero();
     for (Index q = 0; q < count; ++q) mean += drop.place(q) / count;
+    if (revolved()) mean[0] = 0;
     const auto in_half_plane = [&](const Vec<D>& x) {
       Vec<D> along = x - mean;
       along[axis_] = 0;

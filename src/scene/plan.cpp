@@ -209,8 +209,6 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
   if (blocks.empty() && (!root.has("body") || root.in_order()))
     root.problem("body", "missing; a scene needs at least one [[body]]");
-  if (root.is_text("dimension") && blocks.size() > 1)
-    blocks[1].problem("", "bodies of revolution do not touch each other; allowed is one");
   std::set<std::string> names;
   for (const Block& block : blocks) {
     BodySettings settings = read<BodySettings>(block);

@@ -62,6 +62,29 @@ void add_contacts(std::vector<Case>& cases) {
                    {}});
 }
 
+/// Two bodies on the axis that approach each other.
+void add_pairs(std::vector<Case>& cases) {
+  const std::string other = example_ball(2, "other") +
+                            "centre = [0, 2.2]\ninitial_velocity = [\"0.05*x\", \"-0.2\"]\n" +
+                            example_solid();
+  const auto add = [&](const std::string& name, const std::string& material,
+                       const std::string& lines) {
+    cases.push_back(
+        {"revolved contact of two bodies, " + name,
+         ball(material) + other + "[[contact]]\nbodies = [\"drop\", \"other\"]\n" + lines,
+         {true, false}});
+  };
+  const std::string particles = "epsilon = 1\nsigma0 = 0.3\nbeta = 1\nskin = 10\n",
+                    gap = "offset = 0.2\nrange = 0.3\nskin = 10\n";
+  add("Lennard-Jones", example_solid(), particles);
+  add("Lennard-Jones of the reference", example_solid(), particles + "density = \"referential\"\n");
+  add("Lennard-Jones of patches", example_liquid(), particles + tension);
+  add("law of the gap", example_solid(), "adhesion = 0.3\npoints = 4\n" + gap);
+  add("law of the gap, of patches", example_liquid(),
+      "contact_angle = 80\npoints = 4\n" + gap + tension);
+  add("ground", example_liquid(), "contact_angle = 80\nup = [0, -1]\n" + gap + tension);
+}
+
 void add_loads(std::vector<Case>& cases) {
   const auto add = [&](const std::string& name, const std::string& material,
                        const std::string& lines) {
@@ -118,6 +141,7 @@ std::vector<Case> revolved_cases() {
   std::vector<Case> cases;
   add_loads(cases);
   add_contacts(cases);
+  add_pairs(cases);
   for (const auto& [name, law] : surface_laws())
     if (name != "anchoring")  // of a nematic, which is not of revolution
       cases.push_back(

@@ -230,7 +230,6 @@ TEST(Axisymmetry, WhatIsNotOfRevolutionIsRefused) {
                  "body[0].shape: has a cell across the axis x = 0");
   expect_refused(heading() + solid("shape = \"disk\"\nradius = 1\ncentre = [-3, 0]\n"),
                  "lies at x < 0; allowed is x >= 0, the distance from the axis");
-  expect_refused(body + solid(ball), "body[1]: bodies of revolution do not touch each other");
   expect_refused(body + "[[body_force]]\nbody = \"body\"\nacceleration = [1, 0]\n",
                  "body_force[0].acceleration: acts across the axis of revolution");
   expect_refused(body + "[[spring]]\nbody = \"body\"\nat = [-0.1, 0.5]\nconstant = 3\n",

@@ -4,6 +4,7 @@
 #include "contact_reference.hpp"
 #include "meniscus/error.hpp"
 #include "numbers/simd.hpp"
+#include "physics/contact/pair/ring_law.hpp"
 
 namespace meniscus::test_contact_law {
 namespace {
@@ -138,6 +139,75 @@ TEST(ContactLaw, LoopFormIsTheFullOneInEveryLane) {
         }
       }
     });
+}
+
+/// Means of u and u cos(phi) over the angle between two circles, and their derivatives.
+RingPair<Real> summed_over_angles(const ContactLaw& law, Real radius, Real other, Real z) {
+  constexpr int angles = 100000;
+  const ContactLaw uncut{PairKernel::space, law.epsilon, law.sigma0};
+  RingPair<Real> mean{};
+  for (int k = 0; k < angles; ++k) {
+    const Real c = std::cos(2 * std::numbers::pi * k / angles);
+    const Real r = std::sqrt(radius * radius + other * other - 2 * radius * other * c + z * z);
+    const auto f = pair_functions(uncut, r);
+    const Real by_r = f.psi * (radius - other * c), by_z = f.psi * z;
+    mean.along.value += f.u / angles;
+    mean.along.by_r += by_r / angles;
+    mean.along.by_z += by_z / angles;
+    mean.across.value += c * f.u / angles;
+    mean.across.by_r += c * by_r / angles;
+    mean.across.by_z += c * by_z / angles;
+  }
+  return mean;
+}
+
+RingPair<Real> of_circles(const ContactLaw& law, Real radius, Real other, Real z) {
+  const Real r[] = {radius - other, z};
+  return RingLaw(law)(radius, r, r[0] * r[0] + z * z);
+}
+
+TEST(ContactLaw, CirclesHaveTheMeanOverTheAngle) {
+  const ContactLaw law{PairKernel::integrated, 1.7, 0.8};
+  for (const auto& [radius, other, z] : std::vector<std::array<Real, 3>>{{2, 2.5, 0.4},
+                                                                         {2, 2, 0.7},
+                                                                         {0.3, 0.1, 0.6},
+                                                                         {1e-9, 1.2, 0.5},
+                                                                         {0.4, 0, -0.9},
+                                                                         {0, 0, 0.8},
+                                                                         {30, 31, 0.1}}) {
+    const auto exact = summed_over_angles(law, radius, other, z),
+               found = of_circles(law, radius, other, z);
+    const std::string at = " of circles " + std::to_string(radius) + " and " +
+                           std::to_string(other) + " at " + std::to_string(z);
+    const auto compare = [&](const auto& a, const auto& b, Real size, const std::string& what) {
+      EXPECT_NEAR(a.value, b.value, 1e-11 * std::abs(size)) << what << at;
+      EXPECT_NEAR(a.by_r, b.by_r, 1e-10 * std::abs(size / law.sigma0)) << what << at;
+      EXPECT_NEAR(a.by_z, b.by_z, 1e-10 * std::abs(size / law.sigma0)) << what << at;
+    };
+    // Near its zero u is much smaller than its two powers.
+    const Real size =
+        std::max(std::abs(exact.along.value), std::abs(exact.along.by_z) * law.sigma0);
+    compare(found.along, exact.along, size, "along the axis");
+    compare(found.across, exact.across, size, "across the axis");
+  }
+}
+
+TEST(ContactLaw, CirclesFarFromTheAxisAreInPlaneStrain) {
+  const ContactLaw law{PairKernel::integrated, 1.7, 0.8, 4};
+  for (const Real d : {0.5, 0.9, 2.0, 2.7, 3.1, 3.3}) {
+    const auto line = pair_functions(law, d);
+    Real error = 0;
+    for (const Real R : {1e3, 1e4}) {
+      const auto rings = of_circles(law, R, R + 0.6 * d, 0.8 * d);
+      const Real circle = 2 * std::numbers::pi * R, scale = std::abs(line.u) + 1e-3;
+      const Real before = error;
+      error = std::abs(circle * rings.along.value - line.u) / scale +
+              std::abs(circle * rings.across.value - line.u) / scale +
+              std::abs(circle * rings.along.by_z - line.psi * 0.8 * d) / scale;
+      EXPECT_LT(error, 10 / R) << "at distance " << d;
+      EXPECT_LT(error, before > 0 ? 0.2 * before : 1) << "at distance " << d;
+    }
+  }
 }
 
 TEST(ContactLaw, KernelsHaveNames) {

@@ -155,6 +155,11 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
 /// Reports what is not of revolution about the axis x = 0.
 template <int D>
 void Contact<D>::check_revolved(const Block& block) const {
+  if (!partner && form != "energy")
+    block.problem("form",
+                  fmt::format("is \"{}\" between bodies of revolution; allowed is energy", form));
+  if (up.size() == D && up.front() != 0)
+    block.problem("up", "is not along the axis of revolution; allowed is 0 for x");
   if (!partner || !partner->shape) return;
   for (const Vec<D>& x :
        {Vec<D>(Vec<D>::Unit(0)), Vec<D>(Vec<D>::Unit(1)), Vec<D>(Vec<D>::Ones())}) {

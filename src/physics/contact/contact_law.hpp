@@ -131,6 +131,21 @@ class PairLaw {
     return {phi_c, slope * f.by_r};
   }
 
+  /// Q = 1 - t^3 (10 - 15 t + 6 t^2), t = (r - r_s)/(r_c - r_s) in [0, 1], and its derivatives.
+  template <class T>
+  struct Switch {
+    T value, first, second, third;
+
+    [[gnu::always_inline]] Switch(T r, Real begin, Real per_width) {
+      const T t = clamp((r - begin) * per_width), s = 1.0 - t;
+      const Real k = per_width, inside = 60 * k * k * k;
+      value = 1.0 - t * t * t * (10.0 - t * (15.0 - t * 6.0));
+      first = t * t * s * s * (-30 * k);
+      second = t * s * (s - t) * (-60 * k * k);
+      third = only_inside(t, (t * s * 6.0 - 1.0) * inside);
+    }
+  };
+
  private:
   /// The functions without cut-off.
   template <class T>
@@ -151,21 +166,6 @@ class PairLaw {
         scale = T(law.epsilon_);
       psi = scale * (x * (x * c.psi12 + c.psi6));
       u = scale * r_squared * (x * (x * c.u12 + c.u6));
-    }
-  };
-
-  /// Q = 1 - t^3 (10 - 15 t + 6 t^2), t = (r - r_s)/(r_c - r_s) in [0, 1], and its derivatives.
-  template <class T>
-  struct Switch {
-    T value, first, second, third;
-
-    [[gnu::always_inline]] Switch(T r, Real begin, Real per_width) {
-      const T t = clamp((r - begin) * per_width), s = 1.0 - t;
-      const Real k = per_width, inside = 60 * k * k * k;
-      value = 1.0 - t * t * t * (10.0 - t * (15.0 - t * 6.0));
-      first = t * t * s * s * (-30 * k);
-      second = t * s * (s - t) * (-60 * k * k);
-      third = only_inside(t, (t * s * 6.0 - 1.0) * inside);
     }
   };
 

@@ -98,7 +98,8 @@ class GapPair final : public ForceTerm, public ContactVisits {
                      [this](const Motion& motion) {
                        return sum_of(motion, &GapForces<D>::unit_energy) / law_.contact_energy();
                      }});
-    for (int i = 0; i < D; ++i)
+    const bool revolved = first_.points.body().geometry.grid.revolved;
+    for (int i = revolved ? 1 : 0; i < D; ++i)
       all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the first body",
                      [this, i](const Motion& motion) {
                        const Real on_second = forces_at(motion, first_).force_on_facets(i);

@@ -49,35 +49,47 @@ Tensor<Lanes> ContactPoints<D>::stress_change(const Turned& now,
       [&](int i, int K) { return (SV * now.inverse(K, i) - area[i] * pulled[K]).d; });
 }
 
-/// The derivatives of dE/dx and dE/dF with each component of x and F.
+/// The derivatives of dE/dx and dE/dF with each component of x and F. On a circle about the axis
+/// x_0 also stretches the circle.
 template <int D>
 void ContactPoints<D>::set_moduli(Index c, const Motion& motion, std::span<const Lanes> S,
                                   const std::array<Curvature, Lanes::width>& of,
                                   PointModuli<D>& moduli) const {
+  const PointRows<D>& rows = made_->rule.rows;
+  Lanes per_radius = Lanes::zero();  // stretch of the circle per x_0
+  if (rows.folded)
+    for (int lane = 0; lane < Lanes::width; ++lane)
+      per_radius.set(lane, 1 / at(rows.radius, c * Lanes::width + lane));
   Tensor<Lanes> H;
   made_->rule.gather(c, motion.u.data() + body_->first, H);
-  std::array<Dual<Lanes>, D> turn;
-  for (int i = 0; i < D; ++i) at(turn, i) = S[offset(c, D) + static_cast<std::size_t>(i)];
-  for (int j = 0; j < D; ++j) {
-    for (int i = 0; i < D; ++i)
-      for (int lane = 0; lane < points_in(c); ++lane)
-        moduli(i, 0, j, 0).set(lane, at(of, lane).of_place(i, j));
-    for (int L = 0; L < D; ++L) {
+  for (int j = 0; j < D; ++j)
+    for (int b = 0; b <= D; ++b) {  // of x_j, F_j0, ...
       Tensor<Lanes> dH = Tensor<Lanes>::zero();
-      dH(j, L) = Lanes(1.0);
+      if (b > 0)
+        dH(j, b - 1) = Lanes(1.0);
+      else if (j == 0)
+        dH(2, 2) = per_radius;
       const Turned now = turned(c, dual(H, dH));
-      const Tensor<Lanes> change = stress_change(now, turn);
+      std::array<Lanes, D> pull;
+      std::array<Dual<Lanes>, D> turn;
       for (int i = 0; i < D; ++i) {
-        for (int M = 0; M < D; ++M) moduli(i, M + 1, j, L + 1) = change(i, M);
+        at(pull, i) = Lanes::zero();
+        at(turn, i) = {S[offset(c, D) + static_cast<std::size_t>(i)], Lanes::zero()};
         for (int lane = 0; lane < points_in(c); ++lane) {
-          Real pull = 0;
-          for (int k = 0; k < D; ++k) pull += at(of, lane).of_weight(i, k) * at(now.V, k).d[lane];
-          moduli(i, 0, j, L + 1).set(lane, pull);
-          moduli(j, L + 1, i, 0).set(lane, pull);
+          const Curvature& here = at(of, lane);
+          Real change = b == 0 ? here.of_place(i, j) : 0;
+          for (int k = 0; k < D; ++k) change += here.of_weight(i, k) * at(now.V, k).d[lane];
+          at(pull, i).set(lane, change);
+          if (b == 0) at(turn, i).d.set(lane, here.of_weight(j, i));
         }
       }
+      const Tensor<Lanes> change = stress_change(now, turn);
+      for (int i = 0; i < D; ++i) {
+        moduli(i, 0, j, b) = at(pull, i);
+        for (int M = 0; M < D; ++M) moduli(i, M + 1, j, b) = change(i, M);
+      }
+      moduli(0, 0, j, b) += per_radius * change(2, 2);
     }
-  }
 }
 
 template <int D>
@@ -176,8 +188,9 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
         turned_by[i] = beta_ * dS[k][lane];
       }
       made_->patches->add(at(made_->order, q), pull, turned_by, places.nodes);
-      // The force through the tangents is linear in them; in 2D there is no second tangent.
-      if (D == 3) made_->patches->add(at(made_->order, q), Vec<D>::Zero(), turn, changes.nodes);
+      // The force by the area vector is linear in the nodes, and in the plane constant.
+      if (D == 3 || body_->geometry.grid.revolved)
+        made_->patches->add(at(made_->order, q), Vec<D>::Zero(), turn, changes.nodes);
     }
   });
   made_->patches->end_force(body_->part(force));

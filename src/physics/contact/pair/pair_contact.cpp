@@ -33,7 +33,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
       : name_(choice.name),
         overlap_(choice.overlap),
         law_(law),
-        sums_(pair_sums<D>(law, choice.form)),
+        sums_(pair_sums<D>(law, choice.form, first.body.geometry.grid.revolved)),
         interaction_(law, first.beta * second.beta),
         visits_(first, second, interaction_, law, choice) {
     first_boxes_ = PartTally<CoefficientBoxes<D>>(visits_.work().rows(first.body.division));
@@ -352,7 +352,8 @@ std::vector<MeasureSource> PairContact<D>::measures() const {
       {"gap", dimension::length, "least distance of the points of the two bodies", gap},
       {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
        [this, gap](const Motion& motion) { return gap(motion) / spacing(); }}};
-  for (int i = 0; i < D; ++i)
+  const bool revolved = visits_.first(0).body().geometry.grid.revolved;
+  for (int i = revolved ? 1 : 0; i < D; ++i)
     all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the first body",
                    [this, i](const Motion& motion) { return force_on_first(motion)[i]; }});
   return all;

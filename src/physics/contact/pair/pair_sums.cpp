@@ -12,14 +12,16 @@
 namespace meniscus {
 namespace {
 
-template <int D, class Form, PairKernel K>
+/// Sums of a form, with its potential energy, for a law of pairs of points.
+template <int D, class Form, class Energy, class Law>
 class PairSumsOf final : public PairSums<D> {
  public:
   explicit PairSumsOf(const ContactLaw& law) : law_(law), reach_(law.reach()) {}
 
   bool moment() const override { return Form::moment; }
   bool conservative() const override {
-    return std::is_same_v<Form, contact::Energy<D>> || std::is_same_v<Form, contact::Volume<D>>;
+    return std::is_same_v<Form, contact::Energy<D>> || std::is_same_v<Form, contact::Volume<D>> ||
+           std::is_same_v<Form, contact::RingEnergy>;
   }
 
   void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
@@ -75,31 +77,34 @@ class PairSumsOf final : public PairSums<D> {
               const ContactPlaces<D>& others) const override {
     Lanes T[D], S[1];
     T[0] = Lanes::zero();
-    contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
-        law_, reach_, points.x_of(c), points.weight_of(c), rows.partners_of(c),
-        rows.clusters_per_facet, others, T, S);
+    contact::sum_over_partners<Energy, D>(law_, reach_, points.x_of(c), points.weight_of(c),
+                                          rows.partners_of(c), rows.clusters_per_facet, others, T,
+                                          S);
     return sum(T[0]);
   }
 
  private:
-  PairLaw<K> law_;
+  Law law_;
   Real reach_;
 };
 
 template <int D, PairKernel K>
 std::unique_ptr<PairSums<D>> with_form(const ContactLaw& law, ContactForm form) {
   using namespace contact;
+  const auto sums = [&]<class Form>() -> std::unique_ptr<PairSums<D>> {
+    return std::make_unique<PairSumsOf<D, Form, Potential<D, Form::components>, PairLaw<K>>>(law);
+  };
   switch (form) {
     case ContactForm::pressure:
-      return std::make_unique<PairSumsOf<D, Pressure<D>, K>>(law);
+      return sums.template operator()<Pressure<D>>();
     case ContactForm::volume:
-      return std::make_unique<PairSumsOf<D, Volume<D>, K>>(law);
+      return sums.template operator()<Volume<D>>();
     case ContactForm::dissertation:
-      return std::make_unique<PairSumsOf<D, Dissertation<D>, K>>(law);
+      return sums.template operator()<Dissertation<D>>();
     case ContactForm::energy:
       break;
   }
-  return std::make_unique<PairSumsOf<D, Energy<D>, K>>(law);
+  return sums.template operator()<Energy<D>>();
 }
 
 }  // namespace
@@ -137,11 +142,16 @@ void PairEvaluation<D>::take(const FacetRows<D>& rows, const Portions& shares) {
 }
 
 template <int D>
-std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form) {
+std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form, bool revolved) {
   if (dimension_of(law.kernel) != D)
     throw InputError("the kernel of the contact has another dimension than the bodies");
   if constexpr (D == 3)
     return with_form<D, PairKernel::space>(law, form);
+  else if (revolved && (law.kernel != PairKernel::integrated || form != ContactForm::energy))
+    throw InputError("bodies of revolution touch by their energy in space alone");
+  else if (revolved)
+    return std::make_unique<PairSumsOf<D, contact::RingEnergy, contact::RingPotential, RingLaw>>(
+        law);
   else if (law.kernel == PairKernel::planar)
     return with_form<D, PairKernel::planar>(law, form);
   else
@@ -150,7 +160,7 @@ std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form) 
 
 template struct PairEvaluation<2>;
 template struct PairEvaluation<3>;
-template std::unique_ptr<PairSums<2>> pair_sums(const ContactLaw&, ContactForm);
-template std::unique_ptr<PairSums<3>> pair_sums(const ContactLaw&, ContactForm);
+template std::unique_ptr<PairSums<2>> pair_sums(const ContactLaw&, ContactForm, bool);
+template std::unique_ptr<PairSums<3>> pair_sums(const ContactLaw&, ContactForm, bool);
 
 }  // namespace meniscus

@@ -61,8 +61,9 @@ class PairSums {
                       const ContactPlaces<D>& others) const = 0;
 };
 
-/// Throws InputError if the kernel of the law has another dimension.
+/// Throws InputError if the kernel of the law has another dimension. `revolved`: points are circles
+/// about the axis x = 0, which have the kernel `integrated` and the form `energy`.
 template <int D>
-std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form);
+std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form, bool revolved);
 
 }  // namespace meniscus

@@ -70,11 +70,9 @@ class RigidContact final : public ForceTerm,
     return go_on<&RigidContact::place>(*this, pair_.work, gathered_, motion, force);
   }
 
-  /// Adds the exact tangent. With varying adhesion or friction, and on patches of a body of
-  /// revolution, a difference of forces replaces it.
+  /// Adds the exact tangent. With varying adhesion or friction, a difference of forces replaces it.
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
-    if (effects_.any() || (revolved() && pair_.on_patches()))
-      return ForceTerm::add_tangent(motion, change, force);
+    if (effects_.any()) return ForceTerm::add_tangent(motion, change, force);
     settle(motion);
     choose_visited(pair_, motion, list_, layers_);
     take_layers(pair_, motion, layers_);
@@ -85,8 +83,7 @@ class RigidContact final : public ForceTerm,
 
   /// In 3D, assembly takes longer than iterations with elements (quasi-statics note 10).
   bool has_stiffness() const override {
-    return D == 2 && !revolved() && !effects_.any() && !pair_.on_patches() &&
-           pair_.form == ContactForm::energy;
+    return D == 2 && !effects_.any() && !pair_.on_patches() && pair_.form == ContactForm::energy;
   }
   void announce(StiffnessMatrix& K) override {
     for (ContactPoints<D>& points : pair_.points) points.announce(K);
@@ -204,7 +201,6 @@ class RigidContact final : public ForceTerm,
  private:
   using Placed = typename ContactPoints<D>::Placed;
 
-  bool revolved() const { return pair_.finest().body().geometry.grid.revolved; }
   PartnerPress<D>* press() const { return pair_.partner.motion.press(); }
   /// Moves a pressed partner to its place at a motion. Returns the cause if it has none.
   std::optional<std::string> settle(const Motion& motion) const {

@@ -158,7 +158,10 @@ class Model final : public ContactModel<D> {
   /// without surface tension.
   ContactLaw pair_law(bool rigid, const ContactSurfaces& surfaces) const {
     ContactLaw law;
-    law.kernel = surfaces.dimension == 3 ? PairKernel::space : pair_kernel_named(k_.kernel);
+    if (surfaces.dimension == 2)
+      law.kernel = pair_kernel_named(k_.kernel);
+    else  // far from the axis, circles have the kernel of plane strain
+      law.kernel = rigid || D == 3 ? PairKernel::space : PairKernel::integrated;
     law.epsilon = scaled_ ? 1 : k_.epsilon;
     law.sigma0 = k_.sigma0;
     law.cutoff = rigid ? std::numeric_limits<Real>::infinity() : k_.cutoff;
