@@ -13,6 +13,7 @@
 #include "numbers/dense.hpp"
 #include "run/initial_state.hpp"
 #include "run/simulation.hpp"
+#include "scene/half_plane_twin.hpp"
 #include "solve/expected_effort.hpp"
 #include "solve/step/pseudo_time.hpp"
 
@@ -222,6 +223,21 @@ Scene<D> built_scene(const SceneInput& input, const RunRequest& request) {
   return scene;
 }
 
+/// Says that a scene in space is of revolution.
+template <int D>
+void say_twin(const SceneInput& input, const Scene<D>& scene) {
+  if constexpr (D == 3) {
+    try {
+      const HalfPlaneTwin twin = half_plane_twin(input, read_plan<3>(input));
+      say("the scene is of revolution: `meniscus revolve` writes it for the half plane, with {} "
+          "particles instead of {}\n",
+          twin.particles, scene.system.size());
+    } catch (const InputError&) {
+      return;  // it is not
+    }
+  }
+}
+
 template <int D>
 void check_scene(const SceneInput& input, const RunRequest& request) {
   Scene<D> scene = set_up(input, [&] { return built_scene<D>(input, request); });
@@ -246,6 +262,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     say_load_steps(scene, simulation.state());
   else
     check_steps(scene, simulation, input, request);
+  if (!request.stage) say_twin(input, scene);
   for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
   say("the scene is in order\n");
 }

@@ -44,6 +44,15 @@ int run(const RunRequest& request);
 /// prints them.
 void check(const RunRequest& request);
 
+struct RevolveRequest {
+  std::string scene, file;  ///< file: the new scene; empty: it is printed
+  std::vector<std::string> set;
+};
+
+/// Writes the twin of a scene in the half plane of a body of revolution. Throws InputError with
+/// what prevents it, FileError.
+void revolve(const RevolveRequest& request);
+
 /// The time of --until in units of the scene; infinity if none was given. Throws InputError.
 Real time_to_stop(const RunRequest& request, const UnitSystem& units);
 

@@ -135,6 +135,18 @@ void add_run_options(CLI::App& command, RunRequest& request) {
   command.add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
 }
 
+void add_revolve_options(CLI::App& command, RevolveRequest& request) {
+  command.add_option("SCENE", request.scene, "scene file (TOML) with dimension = 3")
+      ->required()
+      ->check(not_empty());
+  command.add_option("NEW", request.file, "the new scene file; printed if not given")
+      ->check(not_empty());
+  command.add_option("--set", request.set, "replace a key of the scene, e.g. time.end='1 ns'")
+      ->type_name("KEY=VALUE")
+      ->type_size(1)
+      ->allow_extra_args(false);
+}
+
 struct NewRequest {
   std::string name, like;
   bool list = false;
@@ -246,9 +258,10 @@ struct CommandLine {
   KeysRequest keys_request;
   NewRequest new_request;
   SweepRequest sweep_request;
+  RevolveRequest revolve_request;
   std::string file, topic;
-  CLI::App *run, *check, *keys, *info, *study, *plot, *report, *help, *begin, *sweep, *completion,
-      *manual, *version;
+  CLI::App *run, *check, *keys, *info, *study, *plot, *report, *help, *begin, *sweep, *revolve,
+      *completion, *manual, *version;
 
   CommandLine() {
     app.require_subcommand(1);
@@ -275,6 +288,9 @@ struct CommandLine {
     add_new_options(*begin, new_request);
     sweep = app.add_subcommand("sweep", "run a scene with all combinations of values of some keys");
     add_sweep_options(*sweep, sweep_request);
+    revolve = app.add_subcommand(
+        "revolve", "write the twin of a scene whose bodies are of revolution, in the half plane");
+    add_revolve_options(*revolve, revolve_request);
     completion = app.add_subcommand("completion", "print the completion of bash for this program");
     manual = app.add_subcommand("manual", "print the manual page, for man");
     version = app.add_subcommand("version", "print version and build");
@@ -302,6 +318,7 @@ int execute(const CommandLine& line, char** argv) {
   if (line.version->parsed()) say("{}\n", version_text());
   if (line.help->parsed()) print_help(line.topic, line.app);
   if (line.sweep->parsed()) return sweep(line.sweep_request);
+  if (line.revolve->parsed()) revolve(line.revolve_request);
   if (line.completion->parsed()) print_text(bash_completion(texts_of(line.app)));
   if (line.manual->parsed())
     print_text(manual_page(texts_of(line.app), build().version, line.app.get_description() + ".",

@@ -116,6 +116,8 @@ class Block {
   std::shared_ptr<Node> node_;
 };
 
+struct Document;
+
 /// A stage of a scene: the scene with the tables of its table [[stage]].
 struct StageChoice {
   std::string name;  ///< of the table
@@ -148,6 +150,8 @@ class SceneInput {
   void check() const;
   /// Text of the file as given, for the provenance of results.
   const std::string& text() const;
+  /// The parsed file, for what reads it as a whole.
+  const Document& document() const;
   /// The complete input as TOML: every key that was read with its value in units of the scene,
   /// including defaults. Reading it again gives the same values.
   std::string complete() const;

@@ -147,6 +147,10 @@ const std::string& SceneInput::text() const {
   return root_.node_->document->text;
 }
 
+const Document& SceneInput::document() const {
+  return *root_.node_->document;
+}
+
 void SceneInput::check() const {
   const Document& document = *root_.node_->document;
   if (document.problems.empty()) return;

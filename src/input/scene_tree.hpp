@@ -52,6 +52,10 @@ Value parse(std::string_view toml, const std::string& name);
 /// key must exist. Throws InputError (without a place).
 void apply_setting(Value& root, const std::string& setting, int n);
 
+/// A value, or a whole document, as TOML: in a table values come before tables.
+std::string toml_text(const Value& value);
+std::string toml_text(const Table& document);
+
 /// A basic string of TOML, quoted and escaped.
 std::string quoted(std::string_view text);
 /// A key as written in TOML: bare if possible, else quoted.

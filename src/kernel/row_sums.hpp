@@ -62,6 +62,21 @@ std::array<NodalVector, 2> values_at(const PointRows<D>& rows, Index q, const No
   return {even[0] + odd[0], even[1] + odd[1]};
 }
 
+/// N_A,K of an entry of the rows, for each component.
+template <int D>
+Lanes slope_at(const PointRows<D>& rows, Offset entry, int K) {
+  const Real even = at(rows.gradient, entry * D + K);
+  return Lanes(rows.folded ? at(rows.odd_gradient, entry * D + K) : even, even, even, even);
+}
+
+/// The stretch of the circle of point q per component 0 of the particle of an entry of its folded
+/// row: N_A/X_0, or its limit on the axis.
+template <int D>
+Real circle_stretch_at(const PointRows<D>& rows, Index q, Offset entry) {
+  const Real radius = at(rows.radius, q);
+  return radius > 0 ? at(rows.odd_value, entry) / radius : at(rows.odd_gradient, entry * D);
+}
+
 /// Column K is sum_A f_A N_A,K at point q, for folded rows.
 template <int D>
 [[gnu::noinline]] std::array<Lanes, D> folded_gradient_at(const PointRows<D>& rows, Index q,
@@ -69,10 +84,7 @@ template <int D>
   std::array<Lanes, D> column;
   column.fill(Lanes::zero());
   for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
-    for (int K = 0; K < D; ++K) {
-      const Real even = at(rows.gradient, e * D + K), odd = at(rows.odd_gradient, e * D + K);
-      at(column, K) += Lanes(odd, even, even, even) * field[at(rows.particle, e)];
-    }
+    for (int K = 0; K < D; ++K) at(column, K) += slope_at(rows, e, K) * field[at(rows.particle, e)];
   return column;
 }
 

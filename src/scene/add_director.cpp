@@ -24,7 +24,10 @@ void add_director(const Body<D>& body, NematicBody<D> nematic, Scene<D>& scene,
   // The scene gives values of the director at the particles, which are converted to coefficients.
   // Using values as coefficients would smooth the director.
   NodalVectors values(static_cast<std::size_t>(body.size()), Lanes::zero());
-  for (Index A = 0; A < body.size(); ++A) set_vector<D>(values, A, at(nematic.director, A));
+  for (Index A = 0; A < body.size(); ++A) {
+    set_vector<D>(values, A, at(nematic.director, A));
+    if (body.on_axis(A)) at(values, A).set(0, 0);
+  }
   const NodalVectors coefficients = coefficients_of(body, values, values);
   std::copy(coefficients.begin(), coefficients.end(), system.fields[number].x.begin() + body.first);
 

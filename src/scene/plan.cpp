@@ -198,10 +198,6 @@ void require_revolvable(const Block& block, const BodyPlan<D>& body) {
   if (body.settings.integration != "q_scni")
     block.problem("integration", fmt::format("is '{}', for a body of revolution; allowed is q_scni",
                                              body.settings.integration));
-  if (body.material && body.material->carries_director())
-    block.problem("material",
-                  "a nematic is no body of revolution; allowed is it with dimension = 2 "
-                  "or 3");
 }
 
 template <int D>

@@ -16,13 +16,15 @@ struct NematicDrop {
   std::string anchoring = "";  ///< lines of the anchoring law
   std::string director = "", more = "";
   bool tension = true;
+  bool revolved = false;  ///< in the half plane of a body of revolution
 
   /// The scene of a drop. With tension, the drop starts at its Laplace pressure; otherwise in its
   /// reference.
   std::string scene(int D, int core, int layers, const std::string& time) const {
     constexpr Real bulk_modulus = 200;
     const Real J = tension ? 1 - (D - 1) / bulk_modulus : 1, scale = std::pow(J, 1.0 / D);
-    std::string text = fmt::format("dimension = {}\n[time]\n{}\n", D, time) +
+    std::string text = fmt::format("dimension = {}\n[time]\n{}\n",
+                                   revolved ? "\"axisymmetric\"" : std::to_string(D), time) +
                        ball_of(D, core, layers, 1 / scale) + more;
     if (tension) {
       text += "initial_displacement = [";
@@ -86,7 +88,7 @@ struct Radial {
   Real energy, profile;  ///< relative error, largest error
 };
 template <int D>
-Radial radial(const nlohmann::json& row, int core, int layers) {
+Radial radial(const nlohmann::json& row, int core, int layers, bool revolved = false) {
   const auto& W = row.at("W_over_K");
   const Real spacing = 1.2 / core;
   NematicDrop drop;
@@ -94,6 +96,7 @@ Radial radial(const nlohmann::json& row, int core, int layers) {
   drop.gamma_1 = 1;
   drop.eps = row.at("eps");
   drop.tension = false;
+  drop.revolved = revolved;
   drop.anchoring = !W.is_string() ? fmt::format("strength = {}\nsense = \"polar\"\n", W.get<Real>())
                    : W == "apolar"
                        ? "strength = 10\nsense = \"apolar\"\n"

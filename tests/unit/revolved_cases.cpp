@@ -143,7 +143,7 @@ std::vector<Case> revolved_cases() {
   add_contacts(cases);
   add_pairs(cases);
   for (const auto& [name, law] : surface_laws())
-    if (name != "anchoring")  // of a nematic, which is not of revolution
+    if (name != "anchoring")  // of a nematic, below
       cases.push_back(
           {"revolved surface law " + name,
            ball(example_liquid()) + fmt::format("[[surface]]\nbody = \"drop\"\n[surface.law]\n"
@@ -151,12 +151,23 @@ std::vector<Case> revolved_cases() {
                                                 name, law.example),
            {name != "boussinesq_scriven", false}});
   for (const auto& [name, law] : laws()) {
-    if (name == "nematic") continue;
     std::string material = "[body.material]\ntype = \"" + name + "\"\n" + law.example;
     for (const KeyText& key : law.keys())
       if (key.key == "reference_director") material += "reference_director = [0, 1]\n";
     cases.push_back({"revolved material " + name, ball(material), {true, false}, true});
   }
+  const std::string nematic =
+      "material = { type = \"nematic\", density = 1.25, bulk_modulus = 2.5, viscosity = 0.5, "
+      "frank_constant = 0.2, core_length = 0.6, rotational_viscosity = 0.5, flow_alignment = 0.7, "
+      "dilatation_coupling = 0.3, initial_director = [\"x*(1 - 0.3*y)\", \"0.8*y + 0.3\"] }\n";
+  for (const char* sense : {"apolar", "polar"})
+    cases.push_back({std::string("revolved anchoring, ") + sense,
+                     ball(nematic) +
+                         "[[surface]]\nbody = \"drop\"\n[surface.law]\ntype = "
+                         "\"anchoring\"\nstrength = 0.4\nsense = \"" +
+                         sense + "\"\n",
+                     {true, false},
+                     true});
   const std::string
       soft = "material = { type = \"neo_hookean\", density = 1, mu = 3, lambda = 10 }\n",
       stiff = "material = { type = \"neo_hookean\", density = 1, mu = 3, lambda = 3e3 }\n";

@@ -345,6 +345,10 @@ TEST(Nematic, FindsTheRadialDirectorOfADiskAndABall) {
     const test::Radial found = ball ? test::radial<3>(row, 4, 2) : test::radial<2>(row, 8, 4);
     EXPECT_NEAR(found.energy, 0, 0.01) << row.dump();
     EXPECT_LT(found.profile, 0.01) << row.dump();
+    if (!ball) continue;
+    const test::Radial revolved = test::radial<2>(row, 12, 6, true);
+    EXPECT_NEAR(revolved.energy, 0, 0.005) << row.dump();
+    EXPECT_LT(revolved.profile, 0.005) << row.dump();
   }
 }
 

@@ -32,6 +32,19 @@ TEST(Nematic, RadialDirectors) {
   }
 }
 
+TEST(Nematic, RadialDirectorsInTheHalfPlane) {
+  for (const auto& row : rows("hedgehog")) {
+    if (row.at("d") != 3 || row.at("eps") < 0.05) continue;
+    const test::Radial coarse = test::radial<2>(row, 12, 6, true),
+                       fine = test::radial<2>(row, 24, 12, true);
+    fmt::print("half plane, eps {}, W/K {}: energy {:+.2e}, {:+.2e}, profile {:.2e}, {:.2e}\n",
+               row.at("eps").dump(), row.at("W_over_K").dump(), coarse.energy, fine.energy,
+               coarse.profile, fine.profile);
+    EXPECT_NEAR(fine.energy, 0, 2e-3);
+    EXPECT_LT(std::abs(fine.energy), std::abs(coarse.energy));
+  }
+}
+
 TEST(Nematic, TorsionOfAFreeDrop) {
   for (const auto& row : rows("torsion")) {
     const bool ball = row.at("d") == 3;

@@ -12,10 +12,29 @@
 namespace meniscus {
 namespace {
 
+/// The gradient at a particle. In a body of revolution (2, 2) is the stretch of its circle.
 template <int D>
 Tensor<Real> gradient_of(const PointRows<D>& rows, Index A, const NodalVector* field) {
   const std::array<Lanes, D> columns = gradient_at(rows, A, field);
-  return Tensor<Real>::map([&](int i, int K) { return i < D && K < D ? at(columns, K)[i] : 0.0; });
+  Real stretch = 0;
+  if (rows.folded)
+    for (Offset e = at(rows.start, A); e < at(rows.start, A + 1); ++e)
+      stretch += circle_stretch_at(rows, A, e) * field[at(rows.particle, e)][0];
+  return Tensor<Real>::map([&](int i, int K) {
+    return i < D && K < D ? at(columns, K)[i] : i == 2 && K == 2 ? stretch : 0.0;
+  });
+}
+
+/// Adds P . dF_A/du_B to all particles B.
+template <int D>
+void scatter_gradient(const PointRows<D>& rows, Index A, const Tensor<Real>& P, NodalVector* f) {
+  std::array<Lanes, D> column;
+  for (int K = 0; K < D; ++K) at(column, K) = Lanes(P(0, K), P(1, K), D == 3 ? P(2, K) : 0.0, 0);
+  for (Offset e = at(rows.start, A); e < at(rows.start, A + 1); ++e) {
+    NodalVector& sum = f[at(rows.particle, e)];
+    for (int K = 0; K < D; ++K) sum += slope_at(rows, e, K) * at(column, K);
+    if (rows.folded) sum += Lanes(circle_stretch_at(rows, A, e) * P(2, 2), 0, 0, 0);
+  }
 }
 
 Tensor<Real> inverse_of(const Tensor<Real>& x) {
@@ -45,8 +64,9 @@ Director<D>::Director(const Body<D>& body, std::size_t number, const NematicBody
                    "a lower frank_constant, a larger rotational_viscosity"),
       body_(body),
       numbers_(nematic.numbers),
-      gradients_(
-          build_point_rows<D>(body.particles, body.particles.X(), {.gradient = true}, body.name)),
+      gradients_(build_point_rows<D>(body.particles, body.particles.X(),
+                                     {.value = body.geometry.grid.revolved, .gradient = true},
+                                     body.name)),
       chunk_sums_(body.chunk_sums(gradients_.start, gradients_.particle)),
       volume_(nematic.volume) {
   for (const Vec<D>& h : nematic.director) initial_.push_back(spatial<D>(h));
@@ -94,12 +114,7 @@ void Director<D>::add_reaction(const Motion& motion, Forces force) {
                          return 0.5 * ((lambda - 1) * h[i] * S[j] + (lambda + 1) * S[i] * h[j]);
                        }),
                        -nu2 * S.dot(h));
-      const Tensor<Real> P = (1 / determinant(F)) * (Y * cofactor(F));
-      std::array<Lanes, D> column;
-      for (int K = 0; K < D; ++K) at(column, K) = Lanes(P(0, K), P(1, K), P(2, K), 0);
-      for (Offset e = at(gradients_.start, A); e < at(gradients_.start, A + 1); ++e)
-        for (int K = 0; K < D; ++K)
-          f[at(gradients_.particle, e)] -= at(gradients_.gradient, e * D + K) * at(column, K);
+      scatter_gradient(gradients_, A, (-1 / determinant(F)) * (Y * cofactor(F)), f);
     }
   });
 }
@@ -121,10 +136,12 @@ Real Director<D>::mean(F&& of_particle) const {
   return sum / volume;
 }
 
-/// Order parameter: the largest eigenvalue of the mean of (D h h/|h|^2 - I)/(D - 1).
+/// Order parameter: the largest eigenvalue of the mean of (d h h/|h|^2 - I)/(d - 1) in the space of
+/// dimension d.
 template <int D>
 Real Director<D>::order(const Motion& motion) const {
   Mat<D> Q = Mat<D>::Zero();
+  const bool revolved = body_.geometry.grid.revolved;
   Real volume = 0;
   const NodalVectors directors = values(motion);
   for (Index A = 0; A < body_.size(); ++A) {
@@ -132,12 +149,17 @@ Real Director<D>::order(const Motion& motion) const {
     const Real square = h.squaredNorm();
     if (!(square > 0)) continue;
     const Vec<D> axis = h.template head<D>();
-    Q += body_.cells.volume(A) / square * (axis * axis.transpose());
+    Mat<D> square_of = axis * axis.transpose();
+    if (revolved) {  // the mean over the circle, whose other direction across the axis has as much
+      square_of(0, 0) *= 0.5;
+      square_of(0, 1) = square_of(1, 0) = 0;
+    }
+    Q += body_.cells.volume(A) / square * square_of;
     volume += body_.cells.volume(A);
   }
   if (!(volume > 0)) return 0;
   const Vec<D> eigenvalues = symmetric_eigenvalues<D>(Q / volume);
-  return (D * eigenvalues.maxCoeff() - 1) / (D - 1);
+  return (body_.space() * eigenvalues.maxCoeff() - 1) / (body_.space() - 1);
 }
 
 /// The elastic couple h x s per volume, with the force s = -dE/dh on the director. Zero at rest.
@@ -159,7 +181,8 @@ template <int D>
 Real Director<D>::tilt(const Lanes& director, Index A) const {
   const Eigen::Vector3d h = spatial(director), &h0 = at(initial_, A);
   const Real squares = h.squaredNorm() * h0.squaredNorm(), product = h.dot(h0);
-  return squares > 0 ? (D * product * product / squares - 1) / (D - 1) : 1;
+  const int space = body_.space();
+  return squares > 0 ? (space * product * product / squares - 1) / (space - 1) : 1;
 }
 
 template <int D>

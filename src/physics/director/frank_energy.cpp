@@ -20,6 +20,7 @@ FrankEnergy<D>::FrankEnergy(const Body<D>& body, std::size_t field, const Nemati
       cell_sums_(rule_.chunk_sums(body)),
       value_sums_(body.chunk_sums(body.at_particles.start, body.at_particles.particle)),
       metric_(static_cast<std::size_t>(rule_.groups())),
+      circle_metric_(body.geometry.grid.revolved ? metric_.size() : 0),
       volume_(metric_.size()) {}
 
 template <int D>
@@ -34,17 +35,29 @@ Real FrankEnergy<D>::excess(Index A, const NodalVector* x) const {
 }
 
 template <int D>
-typename FrankEnergy<D>::Metric FrankEnergy<D>::metric(Index cell, const Tensor<Lanes>& cofactor,
-                                                       Lanes J) const {
-  const Lanes factor = rule_.weight(cell) / J;
-  Metric M;
+void FrankEnergy<D>::hold(Index cell, const Tensor<Lanes>& cofactor, Lanes J) {
+  const Lanes w = rule_.weight(cell), factor = w / J;
+  Metric& M = at(metric_, cell);
   for (int K = 0; K < D; ++K)
     for (int L = K; L < D; ++L) {
       Lanes square = cofactor(0, K) * cofactor(0, L);
       for (int i = 1; i < D; ++i) square += cofactor(i, K) * cofactor(i, L);
       at(M, hessian_index(D, K, L)) = factor * square;
     }
-  return M;
+  if (!circle_metric_.empty()) at(circle_metric_, cell) = factor * cofactor(2, 2) * cofactor(2, 2);
+  at(volume_, cell) = sum(w * J);
+}
+
+/// The product of the gradient of the director and the metric.
+template <int D>
+Tensor<Lanes> FrankEnergy<D>::weighted(const Tensor<Lanes>& slope, Index cell) const {
+  const Metric& M = at(metric_, cell);
+  Tensor<Lanes> y = Tensor<Lanes>::zero();
+  for (int i = 0; i < D; ++i)
+    for (int K = 0; K < D; ++K)
+      for (int L = 0; L < D; ++L) y(i, K) += slope(i, L) * at(M, hessian_index(D, L, K));
+  if (!circle_metric_.empty()) y(2, 2) = slope(2, 2) * at(circle_metric_, cell);
+  return y;
 }
 
 template <int D>
@@ -64,8 +77,7 @@ Report FrankEnergy<D>::add_force(const Motion& motion, Forces force) {
       const Lanes energy = 0.5 * stretch * contract(Jg, Jg) + Lanes(length_stiffness_ / 4 * r * r);
       const Tensor<Lanes> stress = add_diagonal((-stretch) * (transpose(Jg) * Jg), energy);
       rule_.scatter(P, (-w) * (stress * cofactor), f);
-      at(metric_, P) = metric(P, cofactor, J);
-      at(volume_, P) = sum(w * J);
+      hold(P, cofactor, J);
     }
   });
   if (!force.fields.empty()) add_held_force(h, body_.part(force.of_field(field_)));
@@ -92,25 +104,9 @@ void FrankEnergy<D>::hold_places(const NodalVector* u) {
   parallel_for(cell_sums_.own_rows(rule_.groups()), [&](Index P) {
     Tensor<Lanes> H;
     rule_.gather(P, u, H);
-    const Lanes J = 1.0 + volume_change(H);
-    at(metric_, P) = metric(P, cofactor_of_deformation(H), J);
-    at(volume_, P) = sum(rule_.weight(P) * J);
+    hold(P, cofactor_of_deformation(H), 1.0 + volume_change(H));
   });
 }
-
-namespace {
-
-/// The product x M, row by row.
-template <int D, class Metric>
-Tensor<Lanes> weighted(const Tensor<Lanes>& x, const Metric& M) {
-  Tensor<Lanes> y = Tensor<Lanes>::zero();
-  for (int i = 0; i < D; ++i)
-    for (int K = 0; K < D; ++K)
-      for (int L = 0; L < D; ++L) y(i, K) += x(i, L) * at(M, hessian_index(D, L, K));
-  return y;
-}
-
-}  // namespace
 
 template <int D>
 Real FrankEnergy<D>::held_energy(const NodalVector* x) const {
@@ -118,8 +114,7 @@ Real FrankEnergy<D>::held_energy(const NodalVector* x) const {
     Tensor<Lanes> slope;
     rule_.gather(P, x, slope);
     const Real r = excess(P, x);
-    return 0.5 * numbers_.frank_constant *
-               sum(contract(slope, weighted<D>(slope, at(metric_, P)))) +
+    return 0.5 * numbers_.frank_constant * sum(contract(slope, weighted(slope, P))) +
            length_stiffness_ / 4 * r * r * at(volume_, P);
   });
 }
@@ -131,7 +126,7 @@ void FrankEnergy<D>::add_held_force(const NodalVector* x, const ForceVector& f) 
     for (Index P = begin; P < end; ++P) {
       Tensor<Lanes> slope;
       rule_.gather(P, x, slope);
-      rule_.scatter(P, minus_K * weighted<D>(slope, at(metric_, P)), sum);
+      rule_.scatter(P, minus_K * weighted(slope, P), sum);
     }
   });
   value_sums_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
@@ -166,7 +161,8 @@ std::vector<MeasureSource> FrankEnergy<D>::measures() const {
 template <int D>
 std::size_t FrankEnergy<D>::bytes() const {
   return rule_.bytes() + cell_sums_.bytes() + value_sums_.bytes() +
-         metric_.size() * sizeof(Metric) + volume_.size() * sizeof(Real);
+         metric_.size() * sizeof(Metric) + circle_metric_.size() * sizeof(Lanes) +
+         volume_.size() * sizeof(Real);
 }
 
 template class FrankEnergy<2>;

@@ -38,7 +38,9 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   /// w J F^-1 F^-T at four quadrature points, one per lane: the metric of |grad h|^2.
   using Metric = std::array<Lanes, static_cast<std::size_t>(hessian_count(D))>;
 
-  Metric metric(Index cell, const Tensor<Lanes>& cofactor, Lanes J) const;
+  /// Sets metric and volume of a cell.
+  void hold(Index cell, const Tensor<Lanes>& cofactor, Lanes J);
+  Tensor<Lanes> weighted(const Tensor<Lanes>& slope, Index cell) const;
   const NodalVector* director(const Motion& motion) const;
   /// |h|^2 - 1 at a particle.
   Real excess(Index A, const NodalVector* x) const;
@@ -50,8 +52,9 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   CellRule<D> rule_;
   ChunkSums cell_sums_, value_sums_;
   // For the positions set by hold_places() and the cells whose rows this process has:
-  AlignedVector<Metric> metric_;  // [cell]
-  std::vector<Real> volume_;      // [cell]
+  AlignedVector<Metric> metric_;        // [cell]
+  AlignedVector<Lanes> circle_metric_;  // [cell] (2, 2) of the metric of a body of revolution
+  std::vector<Real> volume_;            // [cell]
 };
 
 }  // namespace meniscus
