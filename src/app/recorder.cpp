@@ -133,7 +133,8 @@ Recorder<D>::Files::Files(const Simulation<D>& simulation, const RunDirectory& d
       lines(line_writers(simulation.scene(), directory,
                          continued ? std::optional(simulation.state().time) : std::nullopt)),
       results(make_result_file(simulation, directory, provenance, continued)),
-      partners(simulation, directory, provenance, continued) {}
+      partners(simulation, directory, provenance, continued),
+      revolved(simulation, directory, provenance, continued) {}
 
 template <int D>
 void Recorder<D>::begin_epoch(Simulation<D>& simulation) {
@@ -233,6 +234,7 @@ void Recorder<D>::write_frame(bool with_state) {
   on_first_rank([&] {
     files_->results->write_frame(state.step, state.time, fields, snapshot ? &*snapshot : nullptr);
     files_->partners.write(state.step, state.time);
+    files_->revolved.write(state.step, state.time, fields);
   });
   last_frame_ = state.step;
 }

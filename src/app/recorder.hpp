@@ -3,6 +3,7 @@
 // due.
 #pragma once
 #include "app/partner_frames.hpp"
+#include "app/revolved_frames.hpp"
 #include "io/checkpoint.hpp"
 #include "io/history.hpp"
 #include "io/result_file.hpp"
@@ -51,6 +52,7 @@ class Recorder {
     std::vector<HistoryWriter> lines;
     std::unique_ptr<ResultFile> results;
     PartnerFrames<D> partners;
+    RevolvedFrames<D> revolved;
   };
   std::optional<Files> files_;
   std::int64_t last_frame_ = -1;

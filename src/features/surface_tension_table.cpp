@@ -63,9 +63,9 @@ struct SurfaceTension final : Load<D>, Keys {
     if (planned && !face.empty()) FaceKeys{body, face, std::nullopt}.check(block, bodies);
     if (!face.empty() && form != "balanced")
       block.problem("form", fmt::format("is {}, with a face; allowed is balanced", form));
-    if (planned && planned->geometry.grid.revolved && form != "balanced")
-      block.problem("form",
-                    fmt::format("is {}, for a body of revolution; allowed is balanced", form));
+    if (planned && planned->geometry.grid.revolved && form == "triangles")
+      block.problem(
+          "form", "is triangles, for a body of revolution; allowed are balanced, weak, curvature");
     if (planned && form == "curvature" && !planned->geometry.surface->smooth())
       block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
                                         "undefined; allowed are balanced, weak, triangles",

@@ -11,7 +11,8 @@
 //   /VTKHDF                 the same frames as a mesh that moves (VTK 9.3, ParaView 5.12 or newer,
 //                           which open run.vtkhdf, a link to it)
 // The rigid partners of contacts are in partners.h5 and its views, in the same way: the cells are
-// the surfaces of the partners, and the only field is the position. Every array has an attribute
+// the surfaces of the partners, and the only field is the position. Surfaces of bodies of
+// revolution may be in revolved.h5 likewise. Every array has an attribute
 // "units". run.xdmf describes the frames for older versions of ParaView. A frame is safe when
 // write_frame() returns: after an interruption, even by kill -9, the file opens and contains it.
 // The file can be read during the run.

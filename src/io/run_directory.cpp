@@ -18,9 +18,9 @@ namespace {
 /// All files of a run. A directory counts as used if it has one of the first four.
 constexpr const char* run_files[] = {"run.h5",      "checkpoint-a.h5", "checkpoint-b.h5",
                                      "history.csv", "run.xdmf",        "run.vtkhdf.series",
-                                     "run.log",     "partners.xdmf"};
+                                     "run.log",     "partners.xdmf",   "revolved.xdmf"};
 constexpr int telling_files = 4;
-constexpr const char* series_names[] = {"run", "partners"};
+constexpr const char* series_names[] = {"run", "partners", "revolved"};
 
 void refuse_existing_run(const std::filesystem::path& directory) {
   for (int i = 0; i < telling_files; ++i)

@@ -27,9 +27,9 @@ void remove_result(const std::filesystem::path& result_file);
 
 /// A directory with the files run.h5 (run.1.h5, ... after remaps), run.vtkhdf, run.xdmf,
 /// history.csv, run.log, checkpoint-a.h5 and checkpoint-b.h5. There are also partners.h5 with its
-/// views for rigid partners, and probe-NAME.csv for lines of points. While the object lives, no
-/// other program can write results there. The lock ends with the process, even if the process is
-/// killed.
+/// views for rigid partners, revolved.h5 for surfaces of revolution, and probe-NAME.csv for lines
+/// of points. While the object lives, no other program can write results there. The lock ends with
+/// the process, even if the process is killed.
 class RunDirectory {
  public:
   /// Makes the directory if needed. Throws FileError if the directory cannot be made or written to,

@@ -118,10 +118,13 @@ std::array<Real, static_cast<std::size_t>(hessian_count(D))> hessian_along(
   std::array<Real, static_cast<std::size_t>(hessian_count(D))> sum{};
   for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
     const Lanes& f = field[at(rows.particle, e)];
-    Real component = direction[0] * f[0];
+    Real component = rows.folded ? 0 : direction[0] * f[0];
     for (int i = 1; i < D; ++i) component += direction[i] * f[i];
     const Real* hessian = rows.hessian.data() + e * hessian_count(D);
     for (std::size_t ij = 0; ij < sum.size(); ++ij) sum[ij] += component * hessian[ij];
+    if (!rows.folded) continue;
+    const Real* odd = rows.odd_hessian.data() + e * hessian_count(D);
+    for (std::size_t ij = 0; ij < sum.size(); ++ij) sum[ij] += direction[0] * f[0] * odd[ij];
   }
   return sum;
 }

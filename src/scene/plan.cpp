@@ -192,12 +192,11 @@ void require_resolved_places(const Block& block, const Grid<D>& grid) {
   if (!lost.empty()) block.problem(block.has("centre") ? "centre" : "shape", lost);
 }
 
-/// Reports what bodies of revolution do not have.
+/// Reports what bodies of revolution do not have: on the axis a particle has no circle to stretch.
 template <int D>
 void require_revolvable(const Block& block, const BodyPlan<D>& body) {
-  if (body.settings.integration != "q_scni")
-    block.problem("integration", fmt::format("is '{}', for a body of revolution; allowed is q_scni",
-                                             body.settings.integration));
+  if (body.settings.integration == "nodal")
+    block.problem("integration", "is 'nodal', for a body of revolution; allowed are q_scni, gauss");
 }
 
 template <int D>
@@ -399,6 +398,8 @@ RunSettings read_settings(const Block& root) {
   }
   const Block output = root.table_or_defaults("output");
   run.output = read<OutputSettings>(output);
+  if (run.output.revolved && !root.is_text("dimension"))
+    output.problem("revolved", "is for dimension = \"axisymmetric\"; allowed is false");
   output.done();
   if (const auto expect = root.table("expect"))
     for (const auto& [name, block] : expect->named_tables()) {

@@ -107,6 +107,11 @@ Rows<OutputSettings> OutputSettings::rows() {
                "whether each frame also holds the complete state, so that a run can go on from it; "
                "checkpoints hold it anyway",
                false),
+      flag_row(
+          "revolved", &S::revolved,
+          "dimension = \"axisymmetric\": whether revolved.h5 and its views for ParaView have the "
+          "surface in space, with the fields that are numbers or vectors",
+          false),
       real_row("checkpoint_minutes", &S::checkpoint_minutes, dimension::none, range::positive,
                "wall-clock minutes between checkpoints", 10.0),
   };

@@ -36,7 +36,7 @@ struct OutputSettings {
   std::vector<std::string> fields, measures;
   std::string precision;
   int compression = 0;
-  bool restartable = false;
+  bool restartable = false, revolved = false;
   Real checkpoint_minutes = 0;
   static Rows<OutputSettings> rows();
 

@@ -66,6 +66,33 @@ core = 4
 rings = 2
 {MATERIAL}
 """ + WALL.format("disk", 'type = "frame", low = [-1.4, -1.3], high = [2, 3]')
+REVOLVED = f"""
+dimension = "axisymmetric"
+[time]
+end = 0.1
+step = 0.01
+[output]
+frames_every = 0.02
+fields = ["velocity", "von_mises"]
+measures = ["ball.volume"]
+revolved = true
+[[body]]
+name = "ball"
+shape = "disk"
+radius = 1
+core = 16
+rings = 8
+centre = [0, 0.5]
+initial_velocity = ["0.2*x", "0.1"]
+{MATERIAL}
+[[body]]
+name = "torus"
+shape = "rectangle"
+size = [0.4, 0.4]
+cells = [4, 4]
+centre = [2, 0]
+{MATERIAL}
+"""
 
 
 def cube_of_tetrahedra(n):
@@ -225,6 +252,26 @@ class ParaView(unittest.TestCase):
                     found.append((data.GetNumberOfCells(), data.GetNumberOfPoints()))
                 self.assertEqual(found, [found[0]] * 3)
                 self.assertGreater(min(found[0]), 0)
+
+    def test_bodies_of_revolution(self):
+        """Their surfaces in space: the area of a ball and of a torus, and velocities that turn with them."""
+        frames = self.opened(self.run_of(REVOLVED) / "revolved.xdmf")
+        self.assertEqual(len(frames.TimestepValues), 6)
+        pi = 3.14159265
+        self.assertLess(abs(self.total(frames, "Area") / (4 * pi + 2 * pi * 2 * 1.6) - 1), 0.01)
+        frames.UpdatePipeline(0)
+        grid = servermanager.Fetch(frames)
+        self.assertEqual({grid.GetCellType(c) for c in range(grid.GetNumberOfCells())}, {9})
+        low = grid.GetBounds()
+        for found, expected in zip(low, (-2.2, 2.2, -0.5, 1.5, -2.2, 2.2)):
+            self.assertAlmostEqual(found, expected, 6)
+        x = vtk_to_numpy(grid.GetPoints().GetData())
+        velocity = vtk_to_numpy(grid.GetPointData().GetArray("velocity"))
+        self.assertIsNotNone(grid.GetPointData().GetArray("von_mises"))
+        ball = (x[:, 0] ** 2 + x[:, 2] ** 2 < 1.01)
+        for axis in (0, 2):
+            self.assertLess(abs(velocity[ball, axis] - 0.2 * x[ball, axis]).max(), 1e-6)
+        self.assertLess(abs(velocity[ball, 1] - 0.1).max(), 1e-6)
 
     def test_the_plane(self):
         out = self.run_of(IN_THE_PLANE)

@@ -91,6 +91,17 @@ void add_loads(std::vector<Case>& cases) {
     cases.push_back({"revolved " + name, ball(material) + lines, {true, false}});
   };
   add("surface_tension", example_liquid(), tension);
+  add("surface_tension, weak", example_liquid(),
+      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\nform = \"weak\"\n");
+  cases.push_back({"revolved surface_tension, curvature",
+                   ball(example_liquid()) +
+                       "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\nform = \"curvature\"\n",
+                   {}});
+  cases.push_back({"revolved Gauss points",
+                   revolved_heading() + example_ball(2, "drop") + "integration = \"gauss\"\n" +
+                       about_axis + example_solid(),
+                   {true, false},
+                   true});
   add("weight of a solid", example_solid(),
       "[[body_force]]\nbody = \"drop\"\nacceleration = [0, \"-1 + 0.1*y*cos(t)\"]\n");
   add("weight of a drop", example_liquid(),

@@ -84,6 +84,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
     Tensor<Real> F = Tensor<Real>::diagonal(diagonal);
     for (int i = 0; i < D; ++i)
       for (int K = 0; K < D; ++K) F(i, K) += at(column, K)[i];
+    if (rows_.folded) F(2, 2) += value_at(rows_, q, u)[0] / at(rows_.radius, q);
     return F;
   }
   Tensor<Real> deformation(Index q, const NodalVector* u) const {
@@ -97,15 +98,19 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
   SurfaceFrame<Real> frame_at(Index q, const NodalVector* u) const {
     return frame_of(q, deformation(q, u));
   }
-  /// The tensor n_i u_i,KL.
-  Tensor<Real> bending(Index q, const NodalVector* u, const std::array<Real, 3>& n) const {
+  /// The tensor n_i u_i,KL. In a body of revolution (2, 2) is the bending -n_0 (X_0 + u_0)/X_0^2 of
+  /// the circle, which gives it the curvature -n_0/x_0. `one`: 1, or 0 for changes of u.
+  Tensor<Real> bending(Index q, const NodalVector* u, const std::array<Real, 3>& n,
+                       Real one = 1) const {
     Vec<D> direction;
     for (int i = 0; i < D; ++i) direction[i] = at(n, i);
     const auto packed = hessian_along<D>(rows_, q, u, direction);
     Mat<D> nG;
     for (int K = 0; K < D; ++K)
       for (int L = 0; L < D; ++L) nG(K, L) = at(packed, hessian_index(D, K, L));
-    return embed<D>(nG, 0);
+    if (!rows_.folded) return embed<D>(nG, 0);
+    const Real radius = at(rows_.radius, q);
+    return embed<D>(nG, -n[0] * (one + value_at(rows_, q, u)[0] / radius) / radius);
   }
   Real curvature_at(Index q, const NodalVector* u, const SurfaceFrame<Real>& frame) const {
     return twice_mean_curvature(frame, bending(q, u, frame.n), embed<D>(at(surface_.grad_N, q), 0));
@@ -116,7 +121,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
     const std::array<Real, 3> value{n[0].v, n[1].v, n[2].v}, change{n[0].d, n[1].d, n[2].d};
     const Tensor<Real> grad_N = embed<D>(at(surface_.grad_N, q), 0);
     return twice_mean_curvature(
-        frame, dual(bending(q, u, value), bending(q, du, value) + bending(q, u, change)),
+        frame, dual(bending(q, u, value), bending(q, du, value, 0) + bending(q, u, change)),
         dual(grad_N, Tensor<Real>::zero()));
   }
   Real area(const Motion& motion) const override {
