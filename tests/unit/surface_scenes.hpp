@@ -52,12 +52,15 @@ Real stretch_without_power(Scene<D>& scene) {
   return v;
 }
 
-/// The scene of a row of "ball_radial", without its pressure.
-inline std::string radial_scene(const nlohmann::json& row, int core, int layers) {
-  const int D = row.at("d");
+/// The scene of a row of "ball_radial", without its pressure. A ball may be in the half plane.
+template <int D>
+std::string radial_scene(const nlohmann::json& row, int core, int layers) {
+  const std::string dimension =
+      row.at("d") == D ? std::to_string(D) : std::string("\"axisymmetric\"");
   const std::string bulk = row.at("bulk"), surface = row.at("surface");
-  std::string text = fmt::format("dimension = {}\n[time]\nsolver = \"newton\"\nend = 1e3\n", D) +
-                     ball_of(D, core, layers) + "material = { density = 1, ";
+  std::string text =
+      fmt::format("dimension = {}\n[time]\nsolver = \"newton\"\nend = 1e3\n", dimension) +
+      ball_of(D, core, layers) + "material = { density = 1, ";
   if (bulk == "log")
     text += "type = \"newtonian\", bulk_modulus = 150, viscosity = 1 }\n";
   else
@@ -73,7 +76,7 @@ inline std::string radial_scene(const nlohmann::json& row, int core, int layers)
 /// The stretch of the ball or disk at rest. The pressure of the surroundings is given as an energy.
 template <int D>
 Real radial_stretch(const nlohmann::json& row, int core, int layers) {
-  std::string text = radial_scene(row, core, layers);
+  std::string text = radial_scene<D>(row, core, layers);
   const Real p = row.at("p");
   if (p != 0)
     text += fmt::format("[[cavity]]\nbody = \"b\"\nsurface = \"outer\"\npressure = {:.17g}\n", -p);
@@ -89,7 +92,7 @@ Real radial_stretch(const nlohmann::json& row, int core, int layers) {
 template <int D>
 Real radial_stretch_by_traction(const nlohmann::json& row, int core, int layers) {
   Scene<D> scene =
-      scene_of<D>(radial_scene(row, core, layers) +
+      scene_of<D>(radial_scene<D>(row, core, layers) +
                   fmt::format("[[traction]]\nbody = \"b\"\nwhere = 1\npressure = {:.17g}\n",
                               row.at("p").get<Real>()));
   return stretch_without_power(scene);

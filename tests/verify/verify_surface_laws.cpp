@@ -20,9 +20,10 @@ void print(const std::string& what, Real value) {
 TEST(SurfaceLaws, AllRadiiOfBallsAndDisks) {
   Real worst = 0, worst_traction = 0;
   const auto& rows = test::cells_reference().at("surface").at("ball_radial").at("rows");
-  for (std::size_t k = 0; k < rows.size(); k += test::full_verification() ? 1 : 5) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto& row = rows.at(k);
-    const bool ball = row.at("d") == 3;
+    // The short form has the balls in the half plane.
+    const bool ball = row.at("d") == 3 && test::full_verification();
     const Real exact = std::stod(row.at("stretch").get<std::string>()),
                found =
                    ball ? test::radial_stretch<3>(row, 6, 3) : test::radial_stretch<2>(row, 12, 6),
