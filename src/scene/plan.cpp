@@ -279,15 +279,16 @@ bool has_narrow_supports(const BodyPlan<D>& body) {
   return D == 3 && body.material && !body.material->fluid() && !body.curvature;
 }
 
-/// Kernel function and supports where the scene leaves them out. In 3D, round liquids have few
-/// neighbours with large weights (performance note 3.2). At edges, moment matrices are poor with so
-/// few, and second derivatives of curvature, directors, and tensions that pull along the surface
-/// are inaccurate. A director in 2D shears a liquid at its surface, where supports that grow would
-/// double the error (cells note 6).
+/// Kernel function and supports where the scene leaves them out. In space, round liquids have few
+/// neighbours with large weights (performance note 3.2), as bodies of revolution, too. At edges,
+/// moment matrices are poor with so few, and second derivatives of curvature, directors, and
+/// tensions that pull along the surface are inaccurate. A director in 2D shears a liquid at its
+/// surface, where supports that grow would double the error (cells note 6).
 template <int D>
 SupportDefaults default_supports(const BodyPlan<D>& body) {
   const bool director = body.material && body.material->carries_director(),
-             few = D == 3 && body.material && body.material->fluid() && !director &&
+             in_space = space_dimension(body.geometry.grid) == 3,
+             few = in_space && body.material && body.material->fluid() && !director &&
                    !body.curvature && !body.pulled_along && body.geometry.surface->smooth();
   return {few ? "triweight" : "cubic_spline", has_narrow_supports(body) ? 1.5 : 1.8,
           (D == 2 && director) || has_narrow_supports(body) ? "cells" : "neighbours"};

@@ -136,7 +136,8 @@ Rows<BodySettings> BodySettings::rows() {
           "automatic"),
       choice_row("window", &S::window, kernel_functions(),
                  "kernel function of the shape functions; automatic: triweight for liquids in 3D "
-                 "without edges and without a director, unless their tension varies or has form = "
+                 "and of revolution without edges and without a director, unless their tension "
+                 "varies or has form = "
                  "\"curvature\", else cubic_spline",
                  "automatic"),
       optional_row("support_factor", &S::support_factor, dimension::none, support_factors,

@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -105,12 +106,14 @@ class Amplitude {
   int l_;
 };
 
-/// The time span from which the rate is fitted. It begins when the slowest vortical mode, with a
-/// rate of about 30 nu/R^2, has fallen by e^-7, and lasts three decay times or two periods.
+/// The time span from which the rate is fitted. It begins when the slowest vortical mode has fallen
+/// by e^-7, whose rate is about nu/R^2 times the square of the first zero of the Bessel function
+/// J_(l + 1/2), and lasts three decay times or two periods.
 struct TimeInterval {
   Real begin, end;
   static TimeInterval of(const DropMode& mode, Complex s) {
-    const Real begin = 7 / (30 * mode.Oh);
+    constexpr std::array<Real, 3> zeros{5.7635, 6.9879, 8.1826};  // l = 2, 3, 4
+    const Real zero = at(zeros, mode.l - 2), begin = 7 / (zero * zero * mode.Oh);
     Real length = 3 / -s.real();
     if (s.imag() > 0) length = std::min(length, 4 * std::numbers::pi / s.imag());
     return {begin, begin + length};
