@@ -11,7 +11,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace meniscus {
@@ -100,18 +102,32 @@ class Twin {
   Table table(const Table& given, const std::string& name) {
     Table twin;
     const std::string shape = name == "body" ? text(given, "shape") : "";
+    if (name == "probe") require_half_plane(given);
     for (const Entry& entry : given.entries) {
       if (name == "body" && take_shape(given, shape, entry, twin)) continue;
       // Few points are enough in space, where the facets of a circle lie in many ways.
-      if (name == "contact" && entry.key == "points") {
-        note("Contact points by default, instead of {}.", scene_tree::toml_text(entry.value));
+      if ((name == "contact" && entry.key == "points") ||
+          (name == "body" && entry.key == "support_rank")) {
+        note("{} by default, instead of {}.", entry.key, scene_tree::toml_text(entry.value));
         continue;
       }
+      if (name == "initial" && entry.key == "from")
+        values_.refuse(entry.value, "from is a state in space");
       Entry made = entry;
       made.value = value(entry, name, given);
       twin.entries.push_back(std::move(made));
     }
     return twin;
+  }
+
+  /// Refuses a line of points that leaves the half plane of its begin.
+  void require_half_plane(const Table& probe) const {
+    const Entry *from = probe.find("from"), *to = probe.find("to");
+    if (!from || !to) return;
+    const auto begin = values_.angle(std::get<Array>(from->value.data)),
+               end = values_.angle(std::get<Array>(to->value.data));
+    if (begin && end && std::abs(std::remainder(*begin - *end, 2 * std::numbers::pi)) > 1e-9)
+      values_.refuse(to->value, "to is in another half plane of the axis than from");
   }
 
   Value value(const Entry& entry, const std::string& name, const Table& given) {
@@ -161,7 +177,8 @@ class Twin {
         is_one_of(entry.key, {"fields", "bodies"}))
       return given;
     if (is_one_of(entry.key, {"centre", "point", "at", "from", "to"}))
-      return values_.position(entry, given);
+      return values_.position(entry, given,
+                              entry.key == "centre" || (name == "spring" && entry.key == "at"));
     if (is_one_of(entry.key, {"normal", "direction", "up", "axis"}))
       return values_.direction(entry, given);
     static const std::set<std::string> keys = formula_keys();

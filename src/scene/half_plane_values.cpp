@@ -40,16 +40,24 @@ Real HalfPlaneValues::length(const Value& value) const {
   return document_.units.quantity(*text, dimension::length);
 }
 
-Array HalfPlaneValues::position(const Entry& entry, const Array& given) const {
+std::optional<Real> HalfPlaneValues::angle(const Array& given) const {
   const Eigen::Vector3d place(length(given[0]), length(given[1]), length(given[2]));
-  const Real distance = axis().in_half_plane(place)[0];
-  const bool on_axis =
-      distance <= 1e-9 * (place.cwiseAbs().maxCoeff() + axis().through.cwiseAbs().maxCoeff());
-  if (entry.key == "centre" && !on_axis)
-    refuse(entry.value, fmt::format("centre is {:.4g} beside the axis {} through ({:.4g}, {:.4g}, "
-                                    "{:.4g})",
-                                    distance, axis().name(), axis().through[0], axis().through[1],
-                                    axis().through[2]));
+  const Real reach = place.cwiseAbs().maxCoeff() + axis().through.cwiseAbs().maxCoeff();
+  if (axis().in_half_plane(place)[0] <= 1e-9 * reach) return std::nullopt;
+  const Eigen::Vector3d from_axis = place - axis().through;
+  return std::atan2(from_axis[axis().normal()], from_axis[axis().across()]);
+}
+
+Array HalfPlaneValues::position(const Entry& entry, const Array& given,
+                                bool has_to_be_on_axis) const {
+  const Real distance =
+      axis().in_half_plane({length(given[0]), length(given[1]), length(given[2])})[0];
+  const bool on_axis = !angle(given);
+  if (has_to_be_on_axis && !on_axis)
+    refuse(entry.value,
+           fmt::format("{} is {:.4g} beside the axis {} through ({:.4g}, {:.4g}, {:.4g})",
+                       entry.key, distance, axis().name(), axis().through[0], axis().through[1],
+                       axis().through[2]));
   Value across = given.front();
   across.data = entry.key == "point" || on_axis ? 0.0 : distance;
   return {across, at(given, axis().along)};

@@ -4,6 +4,7 @@
 #include "input/input_node.hpp"
 #include "scene/half_plane_formulas.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,10 @@ class HalfPlaneValues {
   [[noreturn]] void refuse(const Value& at, const std::string& what) const;
   /// A length in units of the scene.
   Real length(const Value& value) const;
-  /// Distance from the axis and coordinate along it. A `centre` has to be on the axis; the `point`
-  /// of a plane is moved there.
-  Array position(const Entry& entry, const Array& given) const;
+  /// Distance from the axis and coordinate along it. The `point` of a plane is moved to the axis.
+  Array position(const Entry& entry, const Array& given, bool has_to_be_on_axis = false) const;
+  /// The angle about the axis; empty on it.
+  std::optional<Real> angle(const Array& given) const;
   Array direction(const Entry& entry, const Array& given) const;
   /// Three numbers or formulas.
   Array vector(const Entry& entry, const Array& given) const;

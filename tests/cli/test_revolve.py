@@ -102,6 +102,9 @@ class Revolve(ProgramTest):
                     "viscosity =", 'bulk_viscosity = "1e-3*(1 + x*1e7 + y*z*1e16)"\nviscosity ='),
                  ["bulk_viscosity is", "as far from the axis"]),
                 (drop.replace("dimension = 3", "dimension = 2"), ["dimension = 3"]),
+                (drop + '[[probe]]\nname = "p"\nbody = "drop"\nfrom = ["1 nm", "1 nm", "1 nm"]\nto = ["-1 nm", "-1 nm", "-1 nm"]\n',
+                 ["another half plane"]),
+                (drop + '[[spring]]\nbody = "drop"\nat = ["1 nm", "2 nm", "0 nm"]\nconstant = 1\n', ["at is", "beside the axis"]),
                 (drop.replace('shape = "ellipsoid"\nsemi_axes = ["5 nm", "5 nm", "5 nm"]\ncore = 3\nlayers = 2',
                               'shape = "box"\nsize = ["5 nm", "5 nm", "5 nm"]\ncells = [3, 3, 3]'),
                  ["shape 'box' is not of revolution"])):
