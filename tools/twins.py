@@ -41,7 +41,7 @@ LEVELS = {
 
 def run(program, scene, output, *settings):
     """What a run printed, with its seconds, of this call or of an earlier one."""
-    said = output.with_suffix(".txt")
+    said = output.with_name(output.name + ".txt")
     if not said.exists():
         begin = time.perf_counter()
         done = call(program, "run", scene, "--output", output, "--overwrite", "--threads", "1",

@@ -12,10 +12,11 @@ namespace meniscus {
 
 void revolve(const RevolveRequest& request) {
   const SceneInput input = SceneInput::from_file(request.scene, request.set);
-  if (scene_dimension(input) == 2)
-    throw InputError(request.scene +
-                     ": is no scene with dimension = 3, which alone has a twin in "
-                     "the half plane");
+  if (scene_dimension(input) == 2) {
+    input.check();
+    throw InputError(input.root().place("dimension") +
+                     " is not 3; scenes in space alone have a twin in the half plane");
+  }
   if (!input.stages().empty())
     throw InputError(request.scene + ": has stages; allowed is a scene without [[stage]]");
   const Plan<3> plan = read_plan<3>(input);

@@ -101,7 +101,8 @@ class Revolve(ProgramTest):
                 (drop.replace('core = 3', 'core = 4').replace(
                     "viscosity =", 'bulk_viscosity = "1e-3*(1 + x*1e7 + y*z*1e16)"\nviscosity ='),
                  ["bulk_viscosity is", "as far from the axis"]),
-                (drop.replace("dimension = 3", "dimension = 2"), ["dimension = 3"]),
+                (drop.replace("dimension = 3", "dimension = 2"), ["space.toml:2:13: dimension is not 3"]),
+                (drop.replace("dimension = 3", ""), ["dimension: missing"]),
                 (drop + '[[probe]]\nname = "p"\nbody = "drop"\nfrom = ["1 nm", "1 nm", "1 nm"]\nto = ["-1 nm", "-1 nm", "-1 nm"]\n',
                  ["another half plane"]),
                 (drop + '[[spring]]\nbody = "drop"\nat = ["1 nm", "2 nm", "0 nm"]\nconstant = 1\n', ["at is", "beside the axis"]),
