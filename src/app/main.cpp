@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line.
 #include "app/commands.hpp"
+#include "app/converge.hpp"
 #include "app/documents.hpp"
 #include "app/hand_over.hpp"
 #include "app/interruption.hpp"
@@ -79,12 +80,24 @@ void add_keys_options(CLI::App& command, KeysRequest& request) {
       ->excludes(json);
 }
 
+/// --refine K, which sets resolution.refine.
+void add_refine_option(CLI::App& command, std::vector<std::string>& settings) {
+  command
+      .add_option_function<std::string>(
+          "--refine",
+          [&settings](const std::string& k) { settings.push_back("resolution.refine=" + k); },
+          "make the cells of all bodies finer by this number, as --set resolution.refine=K")
+      ->type_name("K")
+      ->check(not_empty());
+}
+
 void add_scene_options(CLI::App& command, RunRequest& request) {
   command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
   command.add_option("--set", request.set, "replace a key of the scene, e.g. time.end='1 ns'")
       ->type_name("KEY=VALUE")
       ->type_size(1)
       ->allow_extra_args(false);
+  add_refine_option(command, request.set);
   command.add_option("--threads", request.threads, "number of threads; all cores by default")
       ->check(integer_between(1, 4096));
   command
@@ -141,6 +154,7 @@ void add_revolve_options(CLI::App& command, RevolveRequest& request) {
       ->check(not_empty());
   command.add_option("NEW", request.file, "the new scene file; printed if not given")
       ->check(not_empty());
+  add_refine_option(command, request.set);
   command.add_option("--set", request.set, "replace a key of the scene, e.g. time.end='1 ns'")
       ->type_name("KEY=VALUE")
       ->type_size(1)
@@ -191,6 +205,35 @@ void add_sweep_options(CLI::App& command, SweepRequest& request) {
   command
       .add_option("--output", request.output,
                   "directory of sweep.csv and of the runs; results/SCENE-sweep by default")
+      ->type_name("DIR")
+      ->check(not_empty());
+  command.add_option("--threads", request.threads, "number of threads; all cores by default")
+      ->check(integer_between(1, 4096));
+  command.add_flag("--overwrite", request.overwrite,
+                   "begin anew; without it runs that are done stay, and others go on");
+}
+
+void add_converge_options(CLI::App& command, ConvergeRequest& request) {
+  command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
+  command.add_option("--levels", request.levels, "number of resolutions; 3 by default")
+      ->check(integer_between(3, 10));
+  command
+      .add_option("--factor", request.factor,
+                  "by which the cells of a level are finer than those before; 1.5 by default")
+      ->check(CLI::Range(1.05, 4.0));
+  command
+      .add_option("--of", request.of,
+                  "a column of the history whose last value is reported beside the expectations")
+      ->type_name("COLUMN")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command.add_option("--set", request.set, "replace a key of the scene in all levels")
+      ->type_name("KEY=VALUE")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command
+      .add_option("--output", request.output,
+                  "directory of the tables and of the runs; results/SCENE-convergence by default")
       ->type_name("DIR")
       ->check(not_empty());
   command.add_option("--threads", request.threads, "number of threads; all cores by default")
@@ -259,9 +302,10 @@ struct CommandLine {
   NewRequest new_request;
   SweepRequest sweep_request;
   RevolveRequest revolve_request;
+  ConvergeRequest converge_request;
   std::string file, topic;
-  CLI::App *run, *check, *keys, *info, *study, *plot, *report, *help, *begin, *sweep, *revolve,
-      *completion, *manual, *version;
+  CLI::App *run, *check, *keys, *info, *study, *plot, *report, *help, *begin, *sweep, *converge,
+      *revolve, *completion, *manual, *version;
 
   CommandLine() {
     app.require_subcommand(1);
@@ -288,6 +332,9 @@ struct CommandLine {
     add_new_options(*begin, new_request);
     sweep = app.add_subcommand("sweep", "run a scene with all combinations of values of some keys");
     add_sweep_options(*sweep, sweep_request);
+    converge = app.add_subcommand(
+        "converge", "run a scene at several spacings; order, limit and error bar of its results");
+    add_converge_options(*converge, converge_request);
     revolve = app.add_subcommand(
         "revolve", "write the twin of a scene whose bodies are of revolution, in the half plane");
     add_revolve_options(*revolve, revolve_request);
@@ -307,7 +354,8 @@ struct CommandLine {
 
 /// Runs the command that was parsed; returns the exit code.
 int execute(const CommandLine& line, char** argv) {
-  if (line.run->parsed() || line.check->parsed() || line.sweep->parsed()) begin_with_settings(argv);
+  if (line.run->parsed() || line.check->parsed() || line.sweep->parsed() || line.converge->parsed())
+    begin_with_settings(argv);
   if (line.run->parsed()) return run_with_ranks(line.request, argv);
   if (line.check->parsed()) check(line.request);
   if (line.study->parsed()) hand_over_to_studies(argv);
@@ -318,6 +366,7 @@ int execute(const CommandLine& line, char** argv) {
   if (line.version->parsed()) say("{}\n", version_text());
   if (line.help->parsed()) print_help(line.topic, line.app);
   if (line.sweep->parsed()) return sweep(line.sweep_request);
+  if (line.converge->parsed()) return converge(line.converge_request);
   if (line.revolve->parsed()) revolve(line.revolve_request);
   if (line.completion->parsed()) print_text(bash_completion(texts_of(line.app)));
   if (line.manual->parsed())

@@ -13,6 +13,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -195,6 +196,7 @@ class Sweep {
   }
 
   int run_one(Child& child, const Values& values, const std::filesystem::path& directory) {
+    const auto start = std::chrono::steady_clock::now();
     const bool begun = has_checkpoint(stages_.empty() ? directory : directory / stages_.front());
     std::optional<ChildEnd> end;
     if (begun && !request_.overwrite)
@@ -205,6 +207,8 @@ class Sweep {
         last_row((stages_.empty() ? directory : directory / stages_.back()) / "history.csv");
     const Columns expected = expectations(end->output);
     columns.insert(columns.end(), expected.begin(), expected.end());
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    columns.push_back({"seconds", "s", fmt::format("{:.3f}", seconds.count())});
     table_.put(values, end->exit_code, columns);
     replace_file(folder_ / "sweep.csv", table_.text());
     return end->exit_code;

@@ -167,6 +167,10 @@ bool Block::has(std::string_view key) const {
 const std::string& Block::path() const {
   return node_->path;
 }
+Real Block::refinement() const {
+  return node_->document->refine;
+}
+
 const UnitSystem& Block::units() const {
   return node_->document->units;
 }

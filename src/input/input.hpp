@@ -34,6 +34,9 @@ namespace range {
 inline constexpr Range any{}, positive{0, unbounded, true}, non_negative{0, unbounded};
 }
 
+/// Allowed values of resolution.refine.
+inline constexpr Range refinements{0.1, 100};
+
 /// Variables that the formula of a key may use: the reference position x, y, z, the time t, or
 /// both.
 enum class Variables { place, time, place_and_time };
@@ -54,6 +57,8 @@ class Block {
   /// that are found after check(). Returns the place of the table if the key is absent or empty.
   std::string place(std::string_view key = {}) const;
   const UnitSystem& units() const;
+  /// resolution.refine of the scene, by which the cells of bodies are finer.
+  Real refinement() const;
 
   Real real(std::string_view key, Dimension, Range, std::optional<Real> fallback) const;
   /// Dimension of a value that is given with a unit, as a text or by constants. Empty for a plain

@@ -33,6 +33,7 @@ struct Document {
   UnitSystem units;
   bool in_plane = false;  ///< dimension = 2: formulas know no z
   Real end = 0;           ///< time.end; 0 if it is missing or wrong
+  Real refine = 1;        ///< resolution.refine; 1 if it is missing or wrong
   Constants constants;
   std::vector<Problem> problems;
 

@@ -71,20 +71,21 @@ void refer_to_list_above(std::string& line, std::unordered_set<std::string>& sai
   line.replace(first + begin.size(), last - first - begin.size(), "the names listed above");
 }
 
-/// time.end of a scene; 0 if it is missing or wrong.
-Real end_of(const Document& document) {
+/// A number of a scene; the fallback if it is missing or wrong.
+Real number_of(const Document& document, std::string_view table, std::string_view key,
+               Dimension dimension, const Range& allowed, Real fallback) {
   const auto& root = std::get<scene_tree::Table>(document.root.data);
-  const scene_tree::Entry* const time = root.find("time");
-  const auto* const table =
-      time == nullptr ? nullptr : std::get_if<scene_tree::Table>(&time->value.data);
-  const scene_tree::Entry* const end = table == nullptr ? nullptr : table->find("end");
-  if (end == nullptr) return 0;
+  const scene_tree::Entry* const entry = root.find(table);
+  const auto* const keys =
+      entry == nullptr ? nullptr : std::get_if<scene_tree::Table>(&entry->value.data);
+  const scene_tree::Entry* const found = keys == nullptr ? nullptr : keys->find(key);
+  if (found == nullptr) return fallback;
   try {
-    return input_values::Number{document.units, dimension::time, range::positive,
-                                document.constants, document.in_plane}
-        .real(end->value);
+    return input_values::Number{document.units, dimension, allowed, document.constants,
+                                document.in_plane}
+        .real(found->value);
   } catch (const InputError&) {  // who reads it notes that
-    return 0;
+    return fallback;
   }
 }
 
@@ -139,7 +140,8 @@ SceneInput SceneInput::from_text(std::string_view toml, std::string name,
           input_values::integer(dimension->value, {2, 3}, document->constants) == 2;
     } catch (const InputError&) {  // who reads it notes that
     }
-  document->end = end_of(*document);
+  document->end = number_of(*document, "time", "end", dimension::time, range::positive, 0);
+  document->refine = number_of(*document, "resolution", "refine", dimension::none, refinements, 1);
   return input;
 }
 

@@ -118,6 +118,10 @@ Value& child(Value& parent, const Step& step, const std::string& where, bool las
         "{} is {}; {} cannot be set in it", where.empty() ? "the scene" : where, kind(parent),
         step.number ? fmt::format("[{}]", *step.number) : fmt::format("'{}'", step.key)));
   if (Entry* entry = table->find(step.key)) return entry->value;
+  if (where.empty() && !last && step.key == "resolution") {  // a scene need not have this table
+    table->entries.push_back({step.key, place, {Table{}, place}});
+    return table->entries.back().value;
+  }
   if (!last) fail_unknown(where, step.key, table->keys());
   table->entries.push_back({step.key, place, {}});
   return table->entries.back().value;

@@ -385,6 +385,9 @@ RunSettings read_settings(const Block& root) {
       block->problem("from", "is empty; allowed is the directory of a run");
     block->done();
   }
+  const Block resolution = root.table_or_defaults("resolution");
+  read<ResolutionSettings>(resolution);
+  resolution.done();
   if (const auto block = root.table("time", true)) {
     run.time = read<TimeSettings>(*block);
     run.time.step_place = block->place("step");

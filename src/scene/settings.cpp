@@ -40,6 +40,15 @@ Rows<InitialSettings> InitialSettings::rows() {
                    "newton, bodies are at rest")};
 }
 
+Rows<ResolutionSettings> ResolutionSettings::rows() {
+  return {
+      real_row("refine", &ResolutionSettings::refine, dimension::none, refinements,
+               "by which the cells of all bodies are finer: numbers of cells times this, "
+               "rounded, even ones to even ones, and spacings divided by it. Lengths of physics "
+               "stay, but those that are left to the cells by default",
+               1.0)};
+}
+
 Rows<TimeSettings> TimeSettings::rows() {
   using S = TimeSettings;
   return {
@@ -287,6 +296,7 @@ std::vector<KeyTable> key_tables() {
          "begins at 0"}},
        "[[stage]]\nname = \"press\"\n[stage.time]\nend = 1\n[[stage.traction]]\nbody = "
        "\"drop\"\npressure = 10\n[[stage]]\nname = \"release\"\n[stage.time]\nend = 5\n"},
+      {"[resolution]", key_texts(ResolutionSettings::rows()), "[resolution]\nrefine = 2\n"},
       {"[time]", key_texts(TimeSettings::rows())},
       {"[output]", key_texts(OutputSettings::rows())},
       {"[[body]]", key_texts(BodySettings::rows())},

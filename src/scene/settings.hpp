@@ -14,6 +14,12 @@ struct InitialSettings {
   static Rows<InitialSettings> rows();
 };
 
+/// [resolution]
+struct ResolutionSettings {
+  Real refine = 1;
+  static Rows<ResolutionSettings> rows();
+};
+
 /// [time]
 struct TimeSettings {
   Real end = 0;

@@ -4,6 +4,7 @@
 #pragma once
 #include "body/shapes/geometry.hpp"
 #include "body/shapes/meridian.hpp"
+#include "body/shapes/refinement.hpp"
 #include "input/key_table.hpp"
 #include "input/registry.hpp"
 
@@ -207,7 +208,12 @@ bool register_shape() {
   return register_entry(ShapeEntry<D>{S::name, S::meaning, example_of<S>(),
                                       [] { return key_texts(S::rows()); },
                                       [](const Block& block) -> std::optional<Geometry<D>> {
-                                        const S shape = read<S>(block);
+                                        S shape = read<S>(block);
+                                        const Real k = block.refinement();
+                                        if (k != 1 && !refine(shape, k))
+                                          block.problem("shape",
+                                                        "has its own cells, which [resolution] "
+                                                        "does not refine; allowed is refine = 1");
                                         if (!block.in_order()) return std::nullopt;
                                         return shape.geometry();
                                       }});

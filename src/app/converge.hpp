@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs a scene at several spacings, and reports the error of its results.
+#pragma once
+#include "numbers/types.hpp"
+
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+struct ConvergeRequest {
+  std::string scene, output;
+  std::vector<std::string> set;  ///< "key=value", for all levels
+  std::vector<std::string> of;   ///< columns of the history whose last value is reported, too
+  int levels = 3;
+  Real factor = 1.5;  ///< by which the cells of a level are finer than those of the one before
+  int threads = 0;    ///< 0: all cores
+  bool overwrite = false;
+};
+
+/// Runs the levels that have not been run yet, and prints for each expectation of the scene its
+/// values, the observed order, the limit and its error bar, and the first level within 1 % and
+/// 0.1 % of the limit. Writes the same to convergence.csv. A signal stops it; the same command then
+/// continues it. Returns the exit code of a run that failed, otherwise 0. Throws InputError,
+/// FileError.
+int converge(const ConvergeRequest& request);
+
+}  // namespace meniscus

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finer and coarser cells of any shape, by one number.
+#pragma once
+#include "numbers/types.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace meniscus {
+
+struct Wall;
+
+/// A number of cells times k, rounded; an even number stays even, as some shapes ask.
+inline int refined(int cells, Real k) {
+  const int multiple = cells % 2 == 0 ? 2 : 1;
+  return std::max(multiple, multiple * static_cast<int>(std::lround(k * cells / multiple)));
+}
+
+/// Makes the cells of a shape k times as fine, by its members core, rings, layers, around, cells
+/// and spacing. The layers of a Wall are its particles. False if the shape has none of them.
+template <class S>
+bool refine(S& shape, Real k) {
+  bool known = false;
+  const auto take = [&](int& cells) {
+    cells = refined(cells, k);
+    known = true;
+  };
+  if constexpr (requires { shape.core; }) take(shape.core);
+  if constexpr (requires { shape.rings; }) take(shape.rings);
+  if constexpr (requires { shape.around; }) take(shape.around);
+  if constexpr (requires { shape.layers; }) {
+    if constexpr (std::is_base_of_v<Wall, S>)
+      shape.layers = std::max(3, static_cast<int>(std::lround(k * (shape.layers - 1))) + 1);
+    else
+      take(shape.layers);
+  }
+  if constexpr (requires { shape.cells; })
+    for (Real& cells : shape.cells) cells = refined(static_cast<int>(cells), k);
+  if constexpr (requires { shape.spacing; }) {
+    shape.spacing /= k;
+    known = true;
+  }
+  return known;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,106 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""`meniscus converge` and --refine: a refined scene is the scene with more cells; orders, limits and
+error bars of its expectations. Usage: test_converge.py PROGRAM"""
+import csv
+import math
+import unittest
+
+import program
+from program import DROP, ProgramTest, state_of
+
+program.ENVIRONMENT["OMP_NUM_THREADS"] = "1"
+
+# A beam of nearly incompressible rubber whose end is pushed down; its deflection is that of a thin
+# beam to 1 %.
+BEAM = """
+dimension = 2
+time = { end = 1, step = 1, solver = "newton" }
+[output]
+measures = ["beam.mean_pressure"]
+[[body]]
+name = "beam"
+shape = "rectangle"
+size = [10, 1]
+cells = [10, 2]
+centre = [5, 0]
+material = { type = "neo_hookean", density = 1, youngs_modulus = 1, poissons_ratio = 0.3 }
+[[held]]
+body = "beam"
+face = "x_min"
+[[probe]]
+name = "tip"
+body = "beam"
+at = [10, 0]
+fields = ["displacement"]
+[[traction]]
+body = "beam"
+face = "x_max"
+force = [0, -1e-6]
+[expect]
+deflection = { of = "tip.displacement_y", value = -3.66e-3, within_relative = 0.02 }
+"""
+
+
+class Converge(ProgramTest):
+    def table(self, *arguments, code=0):
+        """The rows of the printed table by result, and all that was printed."""
+        printed = self.call("converge", *arguments, code=code).stdout
+        with (self.directory / "out" / "convergence.csv").open() as file:
+            return {row["result"]: row for row in csv.DictReader(file)}, printed
+
+    def test_a_refined_scene_is_the_scene_with_more_cells(self):
+        short = DROP.replace('end = "60 ps"', 'end = "3 ps"')
+        self.scene(short, "coarse")
+        self.scene(short.replace("core = 3", "core = 6").replace("layers = 2", "layers = 4"), "fine")
+        for option in (["--refine", "2"], ["--set", "resolution.refine=2"]):
+            coarse = self.call("run", "coarse.toml", *option, "--output", "coarse", "--overwrite")
+            fine = self.call("run", "fine.toml", "--output", "fine", "--overwrite")
+            self.assertEqual(state_of(coarse), state_of(fine))
+        self.scene(short + "[resolution]\nrefine = 2\n", "table")
+        self.assertEqual(state_of(self.call("run", "table.toml", "--output", "table")), state_of(fine))
+
+    def test_orders_limits_and_error_bars(self):
+        self.scene(BEAM, "beam")
+        rows, printed = self.table("beam.toml", "--output", "out", "--factor", "2", "--of", "beam.mean_pressure")
+        row = rows["deflection"]
+        values = [float(row[f"refine {k}"]) for k in (1, 2, 4)]
+        order, limit, bar = float(row["order"]), float(row["limit"]), float(row["error bar"])
+        quotient = (values[0] - values[1]) / (values[1] - values[2])
+        self.assertGreater(order, 0.8)
+        self.assertLess(abs(limit - (values[2] - (values[1] - values[2]) / (quotient - 1))), 0.05 * bar + 1e-7)
+        finer = float(self.table("beam.toml", "--output", "out", "--factor", "2", "--levels", "5")[0]["deflection"]["refine 16"])
+        self.assertLess(abs(values[2] - finer), bar)
+        self.assertLess(abs(limit / finer - 1), 2e-3)
+        self.assertIn("beam.mean_pressure", rows)
+        self.assertGreater(float(rows["seconds"]["refine 4"]), 0)
+        self.assertIn("refine 4", printed)
+        self.assertTrue(math.isclose(float(row["expected"]), -3.66e-3))
+
+    def test_a_series_goes_on(self):
+        self.scene(BEAM, "beam")
+        first = self.table("beam.toml", "--output", "out", "--factor", "2")[1]
+        self.assertNotIn("done before", first)
+        again = self.table("beam.toml", "--output", "out", "--factor", "2")[1]
+        self.assertEqual(again.count("done before"), 3)
+
+    def test_bad_requests(self):
+        self.scene(BEAM, "beam")
+        for arguments, code, words in (
+                (["--levels", "2"], 2, "allowed is an integer >= 3"),
+                (["--factor", "1.0001"], 2, "--factor"),
+                (["--set", "body.beam.cells=[1,1],[2,2]"], 3, "has 2 values"),
+                (["--factor", "1.05"], 3, "no more cells than the level before")):
+            with self.subTest(words):
+                self.refused(["converge", "beam.toml", *arguments], code, words)
+        self.refused(["run", "beam.toml", "--refine", "0"], 3, "resolution.refine")
+        self.refused(["run", "beam.toml", "--refine", "x"], 3, "resolution.refine")
+        self.scene(BEAM.split("[expect]")[0], "nothing")
+        self.refused(["converge", "nothing.toml"], 3, "nothing to report")
+        self.scene(BEAM.replace("[[traction]]", "[[contact]]\nbodies = [\"beam\"]\nadhesion = 1e-9\noffset = 0.1\n"
+                                "partner = { type = \"half_space\", point = [0, -3], normal = [0, 1] }\n[[traction]]"), "left")
+        self.assertIn("contact[0] has no range", self.call("converge", "left.toml", "--output", "out", "--factor", "2", code=None).stdout)
+
+
+if __name__ == "__main__":
+    program.main()
