@@ -1,20 +1,19 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs scenes in space and their twins in the half plane (`meniscus revolve`) on one thread, and
+"""Runs 3D scenes and their twins in the half plane (`meniscus revolve`) on one thread, and
 prints a table of both: particles, times, how many expectations are met, and the largest
 difference of a result between the two, as a part of what its expectation allows.
 
-Usage: twins.py PROGRAM DIRECTORY [--levels | SCENE ...]
 DIRECTORY gets the twins and all results; runs that are there are not repeated. Scenes are names of
-inputs/; without them all scenes that have a twin. With --levels it runs three scenes at several
-spacings instead, and draws their errors against time, twins.png: differences from the finest run
-in the half plane.
+inputs/; without them all scenes that have a twin. With --levels three scenes are run at several
+spacings instead, and their errors against time are drawn, twins.png: differences from the finest
+run in the half plane.
 """
 
+import argparse
 import os
 import re
 import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -27,7 +26,7 @@ def call(*arguments):
                           env={**os.environ, "OMP_NUM_THREADS": "1"})
 
 
-# Scenes at several spacings: a result, the keys of a level in space and in the half plane, the levels,
+# Scenes at several spacings: a result, the keys of a level in 3D and in the half plane, the levels,
 # and the finest level in the half plane.
 LEVELS = {
     "ellipsoid_drop": ("aspect_51ps", ("body.drop.core={0}", "body.drop.layers={1}"),
@@ -120,22 +119,28 @@ def draw_levels(program, directory):
     figure.savefig(directory / "twins.png", dpi=120)
 
 
-def main(program, directory, *names):
-    if names == ("--levels",):
-        Path(directory).mkdir(parents=True, exist_ok=True)
-        return draw_levels(Path(program).resolve(), Path(directory).resolve())
-    directory = Path(directory).resolve()
+def main():
+    arguments = argparse.ArgumentParser(prog="twins.py", description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("program", type=Path, metavar="PROGRAM", help="meniscus")
+    arguments.add_argument("directory", type=Path, metavar="DIRECTORY", help="of twins and results")
+    arguments.add_argument("scenes", nargs="*", metavar="SCENE")
+    arguments.add_argument("--levels", action="store_true", help="three scenes at several spacings")
+    given = arguments.parse_args()
+    program, directory = given.program.resolve(), given.directory.resolve()
     directory.mkdir(parents=True, exist_ok=True)
-    scenes = names or sorted(path.stem for path in INPUTS.glob("*.toml") if re.search(r"^dimension = 3", path.read_text(), re.MULTILINE))
-    print("| scene | particles | time (s) | ratio | met in space | in the half plane | largest difference / allowed |\n"
+    if given.levels:
+        draw_levels(program, directory)
+        return
+    scenes = given.scenes or sorted(
+        path.stem for path in INPUTS.glob("*.toml") if re.search(r"^dimension = 3", path.read_text(), re.MULTILINE))
+    print("| scene | particles | time (s) | ratio | met in 3D | in the half plane | largest difference / allowed |\n"
           "|---|---|---|---|---|---|---|", flush=True)
     for name in scenes:
-        row = row_of(Path(program).resolve(), name, directory)
+        row = row_of(program, name, directory)
         if row:
             print(row, flush=True)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    main()

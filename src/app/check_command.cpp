@@ -223,7 +223,7 @@ Scene<D> built_scene(const SceneInput& input, const RunRequest& request) {
   return scene;
 }
 
-/// Says that a scene in space is of revolution.
+/// Says that a 3D scene is of revolution.
 template <int D>
 void say_twin(const SceneInput& input, const Scene<D>& scene) {
   if constexpr (D == 3) {

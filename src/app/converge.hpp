@@ -18,9 +18,9 @@ struct ConvergeRequest {
   bool overwrite = false;
 };
 
-/// Runs the levels that have not been run yet, and prints for each expectation of the scene its
-/// values, the observed order, the limit and its error bar, and the first level within 1 % and
-/// 0.1 % of the limit. Writes the same to convergence.csv. A signal stops it; the same command then
+/// Runs the levels that have not been run yet. Prints a line for each expectation of the scene: its
+/// values, the observed order, the limit and its error bar, and the seconds to 1 % and 0.1 % of the
+/// limit. Writes the same to convergence.csv. A signal stops it; the same command then
 /// continues it. Returns the exit code of a run that failed, otherwise 0. Throws InputError,
 /// FileError.
 int converge(const ConvergeRequest& request);

@@ -15,7 +15,7 @@ void revolve(const RevolveRequest& request) {
   if (scene_dimension(input) == 2) {
     input.check();
     throw InputError(input.root().place("dimension") +
-                     " is not 3; scenes in space alone have a twin in the half plane");
+                     " is not 3; 3D scenes alone have a twin in the half plane");
   }
   if (!input.stages().empty())
     throw InputError(request.scene + ": has stages; allowed is a scene without [[stage]]");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Result frames of bodies of revolution in space.
+// Result frames of bodies of revolution as 3D surfaces.
 #include "app/revolved_frames.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DIR/revolved.h5 and its views for ParaView: the surfaces of bodies of revolution in space.
+// DIR/revolved.h5 and its views for ParaView: the surfaces of bodies of revolution, turned about
+// their axis.
 #pragma once
 #include "io/result_file.hpp"
 #include "run/simulation.hpp"

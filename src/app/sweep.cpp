@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -197,6 +198,10 @@ class Sweep {
 
   int run_one(Child& child, const Values& values, const std::filesystem::path& directory) {
     const auto start = std::chrono::steady_clock::now();
+    const SweepTable::Row* stopped = request_.overwrite ? nullptr : table_.find(values);
+    const double before = stopped && stopped->numbers.contains("seconds")
+                              ? std::strtod(stopped->numbers.at("seconds").c_str(), nullptr)
+                              : 0;
     const bool begun = has_checkpoint(stages_.empty() ? directory : directory / stages_.front());
     std::optional<ChildEnd> end;
     if (begun && !request_.overwrite)
@@ -207,8 +212,8 @@ class Sweep {
         last_row((stages_.empty() ? directory : directory / stages_.back()) / "history.csv");
     const Columns expected = expectations(end->output);
     columns.insert(columns.end(), expected.begin(), expected.end());
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    columns.push_back({"seconds", "s", fmt::format("{:.3f}", seconds.count())});
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    columns.push_back({"seconds", "s", fmt::format("{:.3f}", before + elapsed.count())});
     table_.put(values, end->exit_code, columns);
     replace_file(folder_ / "sweep.csv", table_.text());
     return end->exit_code;

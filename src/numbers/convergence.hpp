@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// What the last three levels say about the limit of a result.
+/// The limit of a result by its last three levels.
 struct Convergence {
   std::optional<Real> order;  ///< p of f = f0 + C h^p; empty if the values do not approach one
   Real limit = 0;             ///< f0; without an order the value of the finest level

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formulas of a scene in space, in the half plane through an axis.
+// Formulas of a 3D scene, in the half plane through an axis.
 #pragma once
 #include "input/constants.hpp"
 #include "numbers/types.hpp"

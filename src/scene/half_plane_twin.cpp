@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rewrites a scene in space for the half plane, table by table.
+// Rewrites a 3D scene for the half plane, table by table.
 #include "scene/half_plane_twin.hpp"
 
 #include "input/input_node.hpp"
@@ -105,14 +105,14 @@ class Twin {
     if (name == "probe") require_half_plane(given);
     for (const Entry& entry : given.entries) {
       if (name == "body" && take_shape(given, shape, entry, twin)) continue;
-      // Few points are enough in space, where the facets of a circle lie in many ways.
+      // Few points are enough in 3D, where the facets of a circle lie in many ways.
       if ((name == "contact" && entry.key == "points") ||
           (name == "body" && entry.key == "support_rank")) {
         note("{} by default, instead of {}.", entry.key, scene_tree::toml_text(entry.value));
         continue;
       }
       if (name == "initial" && entry.key == "from")
-        values_.refuse(entry.value, "from is a state in space");
+        values_.refuse(entry.value, "from is a 3D state");
       Entry made = entry;
       made.value = value(entry, name, given);
       twin.entries.push_back(std::move(made));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The twin of a scene in space whose bodies are of revolution about a common axis.
+// The twin of a 3D scene whose bodies are of revolution about a common axis.
 #pragma once
 #include "scene/plan.hpp"
 

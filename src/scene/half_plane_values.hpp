@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of a scene in space, in the half plane through an axis.
+// Values of a 3D scene, in the half plane through an axis.
 #pragma once
 #include "input/input_node.hpp"
 #include "scene/half_plane_formulas.hpp"

@@ -279,8 +279,8 @@ bool has_narrow_supports(const BodyPlan<D>& body) {
   return D == 3 && body.material && !body.material->fluid() && !body.curvature;
 }
 
-/// Kernel function and supports where the scene leaves them out. In space, round liquids have few
-/// neighbours with large weights (performance note 3.2), as bodies of revolution, too. At edges,
+/// Kernel function and supports where the scene leaves them out. Round liquids in
+/// 3D and of revolution have few neighbours with large weights (performance note 3.2). At edges,
 /// moment matrices are poor with so few, and second derivatives of curvature, directors, and
 /// tensions that pull along the surface are inaccurate. A director in 2D shears a liquid at its
 /// surface, where supports that grow would double the error (cells note 6).

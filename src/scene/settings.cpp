@@ -119,7 +119,7 @@ Rows<OutputSettings> OutputSettings::rows() {
       flag_row(
           "revolved", &S::revolved,
           "dimension = \"axisymmetric\": whether revolved.h5 and its views for ParaView have the "
-          "surface in space, with the fields that are numbers or vectors",
+          "surface in 3D, with the fields that are numbers or vectors",
           false),
       real_row("checkpoint_minutes", &S::checkpoint_minutes, dimension::none, range::positive,
                "wall-clock minutes between checkpoints", 10.0),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pull-off map: a rigid ball approaches a soft half space and retracts, through equilibria, for
-// several Tabor numbers, in space and as bodies of revolution. The pull-off force is compared with
+// several Tabor numbers, in 3D and as bodies of revolution. The pull-off force is compared with
 // boundary elements with the same interaction (tests/reference/ball_on_half_space.py) and with
 // Maugis & Dugdale between stiff (Bradley) and soft balls (Johnson, Kendall, Roberts). Also
 // measured: the waves of the force while the edge of the contact passes over facets, and the work
@@ -251,7 +251,7 @@ constexpr std::array<Case, 3> all_cases{{{0.1, 0.004, 0.98796, 1.11, 3, 0.6, 4},
                                          {1, 0.004, 0.82999, 1.93, 3.4, 0.6, 4},
                                          {5, 0.0008, 0.77084, 4.99, 10.5, 3, 8}}};
 
-/// The same in the half plane, with cells of half the size and whole cycles.
+/// Measures whole cycles of all cases in the half plane, with cells of half the size.
 void run_in_half_plane(StudyRun& study) {
   for (const int level : study.levels())
     for (const Case& c : all_cases) {

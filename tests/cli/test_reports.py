@@ -621,7 +621,7 @@ class Reports(ProgramTest):
                 "[functions]": "NAME",
                 "[time]": "end step safety check_every viscosity solver force_tolerance shape_tolerance",
                 "[output]": "frames_every history_every fields measures precision compression "
-                            "restartable checkpoint_minutes",
+                            "restartable revolved checkpoint_minutes",
                 "[[body]]": "name integration gauss_points volumetric window support_factor "
                             "support_by support_rank support_spacings initial_displacement initial_velocity",
                 "[[body]] of any shape": "shape map rotate rotate_axis move imperfection "

@@ -81,7 +81,7 @@ void add_pairs(std::vector<Case>& cases) {
   add("Lennard-Jones of patches", example_liquid(), particles + tension);
   add("law of the gap", example_solid(), "adhesion = 0.3\npoints = 4\n" + gap);
   add("law of the gap, of patches", example_liquid(),
-      "contact_angle = 80\npoints = 4\n" + gap + tension);
+      "adhesion = 0.3\npoints = 4\n" + gap + tension);
   add("ground", example_liquid(), "contact_angle = 80\nup = [0, -1]\n" + gap + tension);
 }
 

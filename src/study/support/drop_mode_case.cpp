@@ -107,8 +107,8 @@ class Amplitude {
 };
 
 /// The time span from which the rate is fitted. It begins when the slowest vortical mode has fallen
-/// by e^-7, whose rate is about nu/R^2 times the square of the first zero of the Bessel function
-/// J_(l + 1/2), and lasts three decay times or two periods.
+/// by e^-7. The rate of that mode is about nu/R^2 times the square of the first zero of the Bessel
+/// function J_(l + 1/2). The span lasts three decay times or two periods.
 struct TimeInterval {
   Real begin, end;
   static TimeInterval of(const DropMode& mode, Complex s) {
