@@ -80,6 +80,13 @@ void add_keys_options(CLI::App& command, KeysRequest& request) {
       ->excludes(json);
 }
 
+void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
+  command.add_option("--set", settings, "replace a key of the scene, e.g. time.end='1 ns'")
+      ->type_name("KEY=VALUE")
+      ->type_size(1)
+      ->allow_extra_args(false);
+}
+
 /// --refine K, which sets resolution.refine.
 void add_refine_option(CLI::App& command, std::vector<std::string>& settings) {
   command
@@ -93,10 +100,7 @@ void add_refine_option(CLI::App& command, std::vector<std::string>& settings) {
 
 void add_scene_options(CLI::App& command, RunRequest& request) {
   command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
-  command.add_option("--set", request.set, "replace a key of the scene, e.g. time.end='1 ns'")
-      ->type_name("KEY=VALUE")
-      ->type_size(1)
-      ->allow_extra_args(false);
+  add_set_option(command, request.set);
   add_refine_option(command, request.set);
   command.add_option("--threads", request.threads, "number of threads; all cores by default")
       ->check(integer_between(1, 4096));
@@ -155,10 +159,7 @@ void add_revolve_options(CLI::App& command, RevolveRequest& request) {
   command.add_option("NEW", request.file, "the new scene file; printed if not given")
       ->check(not_empty());
   add_refine_option(command, request.set);
-  command.add_option("--set", request.set, "replace a key of the scene, e.g. time.end='1 ns'")
-      ->type_name("KEY=VALUE")
-      ->type_size(1)
-      ->allow_extra_args(false);
+  add_set_option(command, request.set);
 }
 
 struct NewRequest {
@@ -227,10 +228,7 @@ void add_converge_options(CLI::App& command, ConvergeRequest& request) {
       ->type_name("COLUMN")
       ->type_size(1)
       ->allow_extra_args(false);
-  command.add_option("--set", request.set, "replace a key of the scene in all levels")
-      ->type_name("KEY=VALUE")
-      ->type_size(1)
-      ->allow_extra_args(false);
+  add_set_option(command, request.set);
   command
       .add_option("--output", request.output,
                   "directory of the tables and of the runs; results/SCENE-convergence by default")

@@ -43,7 +43,7 @@ class RingLaw {
     const T b = 2.0 * own * other, a = near + b, far = near + 2.0 * b;
     const T q = 1.0 / (near * far), a2 = a * a;
     const T q3 = q * sqrt(q), q5 = q3 * q, q7 = q5 * q, q9 = q7 * q;  // half powers of q
-    // f(a, q) = mean of u, b g(a, q) = mean of u cos(phi); the prime is the derivative with 1/q.
+    // f = mean of u, b g = mean of u cos(phi); f_a, g_a: derivatives with a; f_e, g_e: with 1/q.
     const T f = u10_ * (35.0 * a2 * a2 * q9 - 30.0 * a2 * q7 + 3.0 * q5) + u4_ * a * q3;
     const T f_a = u10_ * (140.0 * a2 * q9 - 60.0 * q7) * a + u4_ * q3;
     const T f_e =
