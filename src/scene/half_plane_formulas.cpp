@@ -41,6 +41,29 @@ Eigen::Vector3d TwinAxis::turned(const Eigen::Vector3d& x, Real angle) const {
   return y;
 }
 
+TwinAxis axis_through_middle(int along, const std::vector<Eigen::Vector3d>& places) {
+  TwinAxis axis;
+  axis.along = along;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(unbounded), high = -low;
+  for (const Eigen::Vector3d& X : places) {
+    low = low.cwiseMin(X);
+    high = high.cwiseMax(X);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const Real middle = (low[k] + high[k]) / 2;
+    axis.through[k] = std::abs(middle) <= 1e-9 * (high - low)[k] ? 0 : middle;
+  }
+  return axis;
+}
+
+HalfPlaneFormulas::HalfPlaneFormulas(const TwinAxis& axis, const Constants& constants,
+                                     const std::vector<Eigen::Vector3d>& places)
+    : axis_(axis), constants_(constants) {
+  constexpr std::size_t most = 800;
+  const std::size_t step = std::max<std::size_t>(1, places.size() / most);
+  for (std::size_t A = 0; A < places.size(); A += step) samples_.push_back(places[A]);
+}
+
 std::string HalfPlaneFormulas::rewritten(const std::string& formula,
                                          const std::vector<std::string>& arguments) const {
   const auto replacement = [&](int i) -> std::string {

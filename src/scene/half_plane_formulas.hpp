@@ -25,13 +25,15 @@ struct TwinAxis {
   Eigen::Vector3d turned(const Eigen::Vector3d& x, Real angle) const;
 };
 
+/// The axis parallel to x (0), y (1) or z (2) through the middle of the places.
+TwinAxis axis_through_middle(int along, const std::vector<Eigen::Vector3d>& places);
+
 /// Rewrites formulas of x, y, z with the variables of the half plane, and tests whether they are of
-/// revolution at sample places.
+/// revolution at some of the places.
 class HalfPlaneFormulas {
  public:
   HalfPlaneFormulas(const TwinAxis& axis, const Constants& constants,
-                    std::vector<Eigen::Vector3d> samples)
-      : axis_(axis), constants_(constants), samples_(std::move(samples)) {}
+                    const std::vector<Eigen::Vector3d>& places);
 
   const TwinAxis& axis() const { return axis_; }
   /// The formula with x, y, z replaced, except for the names in `arguments`.

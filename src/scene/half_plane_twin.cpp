@@ -37,7 +37,16 @@ std::set<std::string> formula_keys() {
   return keys;
 }
 
-/// A shape of space in the half plane.
+/// The default of a number of cells of a 3D shape.
+std::int64_t usual_count(std::string_view shape, std::string_view name) {
+  for (const KeyTable& table : key_tables())
+    if (heading_of(table).kind == shape && table.heading.find("(3D)") != std::string::npos)
+      for (const KeyText& key : table.keys)
+        if (key.key == name) return std::stoll(key.fallback);
+  return 0;
+}
+
+/// A 3D shape in the half plane.
 struct TwinShape {
   std::string name;
   bool any_axis = false;  ///< otherwise of revolution about z
@@ -61,8 +70,8 @@ class Twin {
  public:
   using Names = std::set<std::string, std::less<>>;
 
-  Twin(const SceneInput& input, const TwinAxis& axis, std::vector<Eigen::Vector3d> samples)
-      : document_(input.document()), values_(document_, axis, std::move(samples)) {}
+  Twin(const SceneInput& input, const TwinAxis& axis, const std::vector<Eigen::Vector3d>& places)
+      : document_(input.document()), values_(document_, axis, places) {}
 
   /// `known`: the measures of the twin; empty: not known yet.
   HalfPlaneTwin made(Names known = {}) {
@@ -234,6 +243,10 @@ class Twin {
     return made;
   }
 
+  /// Whether a shape has shells of cells around a core.
+  static bool is_of_shells(std::string_view shape) {
+    return is_one_of(shape, {"ball", "half_sphere", "cap", "ellipsoid"});
+  }
   /// Adds the entries of a shape in the half plane. True if the entry is done.
   bool take_shape(const Table& body, const std::string& shape, const Entry& entry, Table& twin) {
     if (entry.key == "shape") {
@@ -245,6 +258,11 @@ class Twin {
       made.value.data = found->second.name;
       twin.entries.push_back(made);
       if (shape == "cylinder") add_rectangle(body, entry, twin);
+      if (is_of_shells(shape)) {  // the defaults of the plane are finer
+        for (const auto& [key, name] : {std::pair("core", "core"), std::pair("layers", "rings")})
+          if (!body.find(key))
+            twin.entries.push_back({name, entry.place, {usual_count(shape, key), entry.place}});
+      }
       return true;
     }
     if (is_one_of(entry.key, {"rotate", "rotate_axis", "move", "jitter", "imperfection"}) &&
@@ -254,7 +272,7 @@ class Twin {
     if (shape == "cylinder" &&
         is_one_of(entry.key, {"radius", "height", "core", "rings", "layers", "centre"}))
       return true;
-    if (is_one_of(shape, {"ball", "half_sphere", "cap", "ellipsoid"}) && entry.key == "layers") {
+    if (is_of_shells(shape) && entry.key == "layers") {
       Entry made = entry;
       made.key = "rings";
       twin.entries.push_back(made);
@@ -285,10 +303,10 @@ class Twin {
   }
   /// The keys of a rectangle with as many cells as a cylinder.
   void add_rectangle(const Table& body, const Entry& shape, Table& twin) const {
-    const auto count = [&](const char* key, std::int64_t usual) {
+    const auto count = [&](const char* key) {
       const Entry* entry = body.find(key);
       const auto* given = entry ? std::get_if<std::int64_t>(&entry->value.data) : nullptr;
-      return given ? *given : usual;
+      return given ? *given : usual_count("cylinder", key);
     };
     const auto add = [&](const char* key, Value value) {
       value.place = shape.place;
@@ -296,12 +314,12 @@ class Twin {
     };
     const Value radius = body.find("radius")->value, height = body.find("height")->value;
     const Real half = values_.length(radius) / 2;
-    const std::int64_t across = (count("core", 18) + 1) / 2 + count("rings", 9);
+    const std::int64_t across = (count("core") + 1) / 2 + count("rings");
     Value along{0.0, shape.place};
     if (const Entry* centre = body.find("centre"))
       along = at(values_.position(*centre, std::get<Array>(centre->value.data)), 1);
     add("size", {Array{radius, height}, shape.place});
-    add("cells", {Array{{across, shape.place}, {count("layers", 3), shape.place}}, shape.place});
+    add("cells", {Array{{across, shape.place}, {count("layers"), shape.place}}, shape.place});
     add("centre", {Array{{half, shape.place}, along}, shape.place});
   }
 
@@ -326,32 +344,11 @@ Built built(const std::string& text) {
   return of_scene;
 }
 
-/// The axis through the middle of the bodies.
-TwinAxis axis_along(int along, const Plan<3>& plan) {
-  TwinAxis axis;
-  axis.along = along;
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(unbounded), high = -low;
-  for (const auto& body : plan.bodies)
-    for (const Vec<3>& X : body.geometry.grid.X) {
-      low = low.cwiseMin(X);
-      high = high.cwiseMax(X);
-    }
-  for (int k = 0; k < 3; ++k) {
-    const Real middle = (low[k] + high[k]) / 2;
-    axis.through[k] = std::abs(middle) <= 1e-9 * (high - low)[k] ? 0 : middle;
-  }
-  return axis;
-}
-
-/// Some particles.
-std::vector<Eigen::Vector3d> samples_of(const Plan<3>& plan) {
-  constexpr std::size_t most = 400;
+/// All particles, as the scene places them.
+std::vector<Eigen::Vector3d> places_of(const Plan<3>& plan) {
   std::vector<Eigen::Vector3d> all;
-  for (const auto& body : plan.bodies) {
-    const auto& X = body.geometry.grid.X;
-    const std::size_t step = std::max<std::size_t>(1, X.size() / most);
-    for (std::size_t A = 0; A < X.size(); A += step) all.push_back(X[A]);
-  }
+  for (const auto& body : plan.bodies)
+    all.insert(all.end(), body.geometry.grid.X.begin(), body.geometry.grid.X.end());
   return all;
 }
 
@@ -372,12 +369,13 @@ bool has_own_axis(const SceneInput& input) {
 }  // namespace
 
 HalfPlaneTwin half_plane_twin(const SceneInput& input, const Plan<3>& plan) {
+  const std::vector<Eigen::Vector3d> places = places_of(plan);
   std::string why;
   for (const int along : {2, 1, 0}) {
     if (along < 2 && has_own_axis(input)) break;
-    const TwinAxis axis = axis_along(along, plan);
+    const TwinAxis axis = axis_through_middle(along, places);
     try {
-      Twin of_scene(input, axis, samples_of(plan));
+      Twin of_scene(input, axis, places);
       const Built revolved = built(of_scene.made().text);
       HalfPlaneTwin twin = of_scene.made(revolved.measures);
       twin.particles = revolved.particles;

@@ -19,8 +19,8 @@ class HalfPlaneValues {
   using Entry = scene_tree::Entry;
 
   HalfPlaneValues(const Document& document, const TwinAxis& axis,
-                  std::vector<Eigen::Vector3d> samples)
-      : document_(document), formulas_(axis, document.constants, std::move(samples)) {}
+                  const std::vector<Eigen::Vector3d>& places)
+      : document_(document), formulas_(axis, document.constants, places) {}
 
   const TwinAxis& axis() const { return formulas_.axis(); }
   [[noreturn]] void refuse(const Value& at, const std::string& what) const;

@@ -116,6 +116,18 @@ class Revolve(ProgramTest):
         self.scene("x", "there")
         self.refused(["revolve", "space.toml", "there.toml"], 5, "there.toml")
 
+    def test_twins_have_as_many_cells_by_default(self):
+        """The defaults of shapes in the plane are finer than those of 3D shapes."""
+        scene = re.search(r"```toml\n(.*?)```", (INPUTS.parent / "README.md").read_text(), re.DOTALL)[1]
+        self.assertNotIn("core", scene)
+        twin = self.twin(scene)
+        for line in ('shape = "ellipse"', "core = 10", "rings = 5"):
+            self.assertIn(line, twin)
+        layer = self.twin(scene.replace('shape = "ellipsoid"\nsemi_axes = ["5 nm", "7.5 nm", "5 nm"]',
+                                        'shape = "cylinder"\nradius = "5 nm"\nheight = "2 nm"').replace(
+                                            "aspect", "volume"))
+        self.assertIn("cells = [18, 3]", layer)
+
     def test_check_tells_of_the_twin(self):
         self.scene(DROP.replace("core = 3", "core = 4"), "space")
         found = re.search(r"of revolution: .* with (\d+) particles instead of (\d+)", self.call("check", "space.toml").stdout)
