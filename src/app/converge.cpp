@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus converge`: a sweep over the resolution, and what it says of each result.
+// `meniscus converge`: a sweep over the resolution, and the error of each result.
 #include "app/converge.hpp"
 
 #include "app/commands.hpp"

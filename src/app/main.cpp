@@ -194,6 +194,20 @@ void write_new_scene(const NewRequest& request) {
   say("{0} begins as '{1}'; next: meniscus check {0}\n", file, request.like);
 }
 
+/// Options of a command that makes several runs: `name` ends the name of their directory.
+template <class Request>
+void add_series_options(CLI::App& command, Request& request, const std::string& name) {
+  command
+      .add_option("--output", request.output,
+                  "directory of the tables and of the runs; results/SCENE-" + name + " by default")
+      ->type_name("DIR")
+      ->check(not_empty());
+  command.add_option("--threads", request.threads, "number of threads; all cores by default")
+      ->check(integer_between(1, 4096));
+  command.add_flag("--overwrite", request.overwrite,
+                   "begin anew; without it runs that are done stay, and others go on");
+}
+
 void add_sweep_options(CLI::App& command, SweepRequest& request) {
   command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
   command
@@ -203,15 +217,7 @@ void add_sweep_options(CLI::App& command, SweepRequest& request) {
       ->required()
       ->type_size(1)
       ->allow_extra_args(false);
-  command
-      .add_option("--output", request.output,
-                  "directory of sweep.csv and of the runs; results/SCENE-sweep by default")
-      ->type_name("DIR")
-      ->check(not_empty());
-  command.add_option("--threads", request.threads, "number of threads; all cores by default")
-      ->check(integer_between(1, 4096));
-  command.add_flag("--overwrite", request.overwrite,
-                   "begin anew; without it runs that are done stay, and others go on");
+  add_series_options(command, request, "sweep");
 }
 
 void add_converge_options(CLI::App& command, ConvergeRequest& request) {
@@ -229,15 +235,7 @@ void add_converge_options(CLI::App& command, ConvergeRequest& request) {
       ->type_size(1)
       ->allow_extra_args(false);
   add_set_option(command, request.set);
-  command
-      .add_option("--output", request.output,
-                  "directory of the tables and of the runs; results/SCENE-convergence by default")
-      ->type_name("DIR")
-      ->check(not_empty());
-  command.add_option("--threads", request.threads, "number of threads; all cores by default")
-      ->check(integer_between(1, 4096));
-  command.add_flag("--overwrite", request.overwrite,
-                   "begin anew; without it runs that are done stay, and others go on");
+  add_series_options(command, request, "convergence");
 }
 
 /// Names, descriptions and options of all commands, for the manual page and the completion of the

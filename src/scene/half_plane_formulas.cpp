@@ -14,12 +14,9 @@ namespace {
 
 constexpr std::array<Real, 4> angles{0.7, 1.5707963267948966, 2.9, 4.3};
 constexpr std::array<Real, 3> times{0, 0.37, 11};
-constexpr Real round_off = 1e-9;
-
-bool equal(Real a, Real b) {
-  return a == b || (std::isnan(a) && std::isnan(b)) ||
-         std::abs(a - b) <= round_off * (std::abs(a) + std::abs(b) + 1e-300) ||
-         std::max(std::abs(a), std::abs(b)) < 1e-14;
+/// Allowed difference of values of the size `value`, of which the largest anywhere is `largest`.
+Real round_off(Real value, Real largest) {
+  return 1e-9 * value + 1e-12 * largest;
 }
 
 std::string text_of(const Eigen::Vector3d& x) {
@@ -90,19 +87,39 @@ Expression HalfPlaneFormulas::parsed(const std::string& formula) const {
   return Expression(constants_.functions.expanded(formula), constants_.numbers());
 }
 
+/// Calls f(x, angle, t) for samples x in the half plane, angles of turns about the axis, and times,
+/// until it returns something.
+template <class F>
+std::optional<std::string> HalfPlaneFormulas::first_of(F&& f) const {
+  for (const Eigen::Vector3d& sample : samples_) {
+    const Vec<2> at = axis_.in_half_plane(sample);
+    Eigen::Vector3d x = axis_.through;
+    x[axis_.across()] += at[0];
+    x[axis_.along] = at[1];
+    for (const Real t : times)
+      for (const Real angle : angles)
+        if (std::optional<std::string> found = f(x, angle, t)) return found;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> HalfPlaneFormulas::uneven(const std::string& formula) const {
   const Expression f = parsed(formula);
   if (!f.depends_on_place()) return std::nullopt;
-  for (const Eigen::Vector3d& x : samples_)
-    for (const Real t : times)
-      for (const Real angle : angles) {
-        const Eigen::Vector3d y = axis_.turned(x, angle);
-        const Real here = f.unchecked(x, t), there = f.unchecked(y, t);
-        if (!equal(here, there))
-          return fmt::format("is {:.4g} at {} and {:.4g} at {}, as far from the axis", here,
-                             text_of(x), there, text_of(y));
-      }
-  return std::nullopt;
+  Real largest = 0;
+  first_of([&](const Eigen::Vector3d& x, Real angle, Real t) -> std::optional<std::string> {
+    largest = std::fmax(largest, std::abs(f.unchecked(axis_.turned(x, angle), t)));
+    return std::nullopt;
+  });
+  return first_of([&](const Eigen::Vector3d& x, Real angle, Real t) -> std::optional<std::string> {
+    const Eigen::Vector3d y = axis_.turned(x, angle);
+    const Real here = f.unchecked(x, t), there = f.unchecked(y, t);
+    if (here == there || (std::isnan(here) && std::isnan(there)) ||
+        std::abs(here - there) <= round_off(std::abs(here), largest))
+      return std::nullopt;
+    return fmt::format("is {:.4g} at {} and {:.4g} at {}, as far from the axis", here, text_of(x),
+                       there, text_of(y));
+  });
 }
 
 std::optional<std::string> HalfPlaneFormulas::uneven(const std::array<std::string, 3>& vector,
@@ -113,27 +130,23 @@ std::optional<std::string> HalfPlaneFormulas::uneven(const std::array<std::strin
   const auto value = [&](const Eigen::Vector3d& x, Real t) -> Eigen::Vector3d {
     return {f[0].unchecked(x, t), f[1].unchecked(x, t), f[2].unchecked(x, t)};
   };
-  for (const Eigen::Vector3d& sample : samples_) {
-    // The sample in the half plane, where nothing may point out of it.
-    const Vec<2> at = axis_.in_half_plane(sample);
-    Eigen::Vector3d x = axis_.through;
-    x[axis_.across()] += at[0];
-    x[axis_.along] = at[1];
-    for (const Real t : times) {
-      const Eigen::Vector3d here = value(x, t);
-      const Real size = std::max(here.cwiseAbs().maxCoeff(), 1e-14 / round_off);
-      if (std::abs(here[axis_.normal()] - direction.through[axis_.normal()]) > round_off * size)
-        return fmt::format("is {} at {}, around the axis", text_of(here), text_of(x));
-      for (const Real angle : angles) {
-        const Eigen::Vector3d y = axis_.turned(x, angle), there = value(y, t),
-                              expected = direction.turned(here, angle);
-        if (!((there - expected).cwiseAbs().maxCoeff() <= round_off * size))
-          return fmt::format("is {} at {}; of revolution it is {}", text_of(there), text_of(y),
-                             text_of(expected));
-      }
-    }
-  }
-  return std::nullopt;
+  Real largest = 0;
+  first_of([&](const Eigen::Vector3d& x, Real angle, Real t) -> std::optional<std::string> {
+    for (const Real component : value(axis_.turned(x, angle), t))
+      largest = std::fmax(largest, std::abs(component));
+    return std::nullopt;
+  });
+  return first_of([&](const Eigen::Vector3d& x, Real angle, Real t) -> std::optional<std::string> {
+    const Eigen::Vector3d here = value(x, t), y = axis_.turned(x, angle), there = value(y, t),
+                          expected = direction.turned(here, angle);
+    const Real allowed = round_off(here.cwiseAbs().maxCoeff(), largest);
+    if (!(std::abs(here[axis_.normal()] - direction.through[axis_.normal()]) <= allowed))
+      return fmt::format("is {} at {}, around the axis", text_of(here), text_of(x));
+    if (!((there - expected).cwiseAbs().maxCoeff() <= allowed))
+      return fmt::format("is {} at {}; of revolution it is {}", text_of(there), text_of(y),
+                         text_of(expected));
+    return std::nullopt;
+  });
 }
 
 }  // namespace meniscus

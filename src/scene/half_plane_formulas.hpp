@@ -47,6 +47,8 @@ class HalfPlaneFormulas {
 
  private:
   Expression parsed(const std::string& formula) const;
+  template <class F>
+  std::optional<std::string> first_of(F&& f) const;
 
   TwinAxis axis_;
   const Constants& constants_;

@@ -17,8 +17,8 @@ struct HalfPlaneTwin {
 
 /// The twin of a scene. Its axis is parallel to x, y or z, passes through the bodies, and becomes
 /// the axis y of the half plane. Formulas are compared at particles and at their images turned
-/// about the axis. Throws InputError with the place of what is not of revolution, and why. Builds
-/// the twin.
+/// about the axis. Throws InputError with the place of a value that is not of revolution, and the
+/// reason. Builds the twin.
 HalfPlaneTwin half_plane_twin(const SceneInput& input, const Plan<3>& plan);
 
 }  // namespace meniscus

@@ -97,6 +97,8 @@ class Revolve(ProgramTest):
         for text, words in (
                 (drop + '[[body_force]]\nbody = "drop"\nacceleration = ["y", "0", "0"]\n', ["acceleration is", "about x"]),
                 (drop + '[[body_force]]\nbody = "drop"\nacceleration = [0.1, 0.2, 0]\n', ["space.toml:27", "of revolution it is"]),
+                (drop.replace("core = 3", "core = 4\ninitial_displacement = [\"1e-15*sin(1e9*y)\", 0, 0]"),
+                 ["initial_displacement is", "of revolution it is"]),
                 (drop + beside + 'centre = ["3 nm", "9 nm", "0 nm"]\n', ["centre is", "beside the axis z"]),
                 (drop.replace('core = 3', 'core = 4').replace(
                     "viscosity =", 'bulk_viscosity = "1e-3*(1 + x*1e7 + y*z*1e16)"\nviscosity ='),

@@ -188,7 +188,8 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
         turned_by[i] = beta_ * dS[k][lane];
       }
       made_->patches->add(at(made_->order, q), pull, turned_by, places.nodes);
-      // The force by the area vector is linear in the nodes, and in the plane constant.
+      // The force by the area vector is linear in the nodes in 3D and of circles; in plane strain
+      // it is constant.
       if (D == 3 || body_->geometry.grid.revolved)
         made_->patches->add(at(made_->order, q), Vec<D>::Zero(), turn, changes.nodes);
     }

@@ -18,8 +18,8 @@ struct RingPair {
 
 /// The mean over the angle phi between two points, of u (along the axis) and of u cos(phi) (across
 /// it), where u is the pair energy of surface points in 3D (axisymmetry note 6). Far from the
-/// axis this is the kernel `integrated` over 2 pi r. The cut-off is that of this kernel: u is
-/// switched off by the distance in the half plane.
+/// axis this is the kernel `integrated` over 2 pi r. As in that kernel, u is switched off by the
+/// distance in the half plane.
 class RingLaw {
  public:
   explicit RingLaw(const ContactLaw& law)
