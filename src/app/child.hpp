@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls another program, or this program again, as a process of its own.
+// Calls other programs, or this program again, as processes of their own.
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meniscus {
@@ -12,22 +13,30 @@ struct ChildEnd {
   std::string output;  ///< text that it wrote to stdout
 };
 
-/// Calls a program and waits for its end. While the object lives, signals that ask this process to
-/// stop are passed on to the called program and do not end this process. If there was such a
+/// Calls programs and waits for their ends. While the object lives, signals that ask this process
+/// to stop are passed on to the called programs and do not end this process. If there was such a
 /// signal, this remains so when the object is destroyed. Only one object may exist at a time.
-class Child {
+class Children {
  public:
-  Child();
-  ~Child();
-  Child(const Child&) = delete;
+  static constexpr int most = 256;  ///< that run at the same time
 
-  /// Calls this program and captures its stdout. Throws FileError if it cannot be started.
-  ChildEnd call(const std::vector<std::string>& arguments);
+  Children();
+  ~Children();
+  Children(const Children&) = delete;
+
+  /// Starts this program, whose stdout is captured; returns the number of the process. Throws
+  /// FileError if it cannot be started.
+  int start(const std::vector<std::string>& arguments);
+  /// Waits until one of the started programs ends; returns the number of its process, and its end.
+  std::pair<int, ChildEnd> next();
   /// Calls a program that writes its own output. `argv` ends with a null pointer. Returns the
   /// status that waitpid() gives. Throws FileError if it cannot be started.
   int call(const std::string& program, char** argv);
   /// The first signal that was passed on, or that arrived between two calls.
   std::optional<int> signal() const;
+
+ private:
+  std::vector<std::pair<int, int>> outputs_;  ///< number of a process, and the file that it writes
 };
 
 }  // namespace meniscus

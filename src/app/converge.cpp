@@ -3,37 +3,42 @@
 #include "app/converge.hpp"
 
 #include "app/commands.hpp"
+#include "app/error_budget.hpp"
 #include "app/print.hpp"
-#include "app/sweep.hpp"
+#include "app/series_table.hpp"
 #include "io/files.hpp"
 #include "meniscus/error.hpp"
-#include "numbers/convergence.hpp"
 #include "scene/plan.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace meniscus {
 namespace {
 
 constexpr const char* refine_key = "resolution.refine";
 
+using Expectations = std::vector<std::pair<std::string, ExpectSettings>>;
+
 std::vector<std::string> refinements_of(const ConvergeRequest& request) {
+  Real factor = request.factor;
+  if (!(factor > 0))
+    factor = scene_dimension(SceneInput::from_file(request.scene, request.set)) == 2 ? 2 : 1.5;
   std::vector<std::string> all;
   for (int level = 0; level < request.levels; ++level)
-    all.push_back(fmt::format("{:.6g}", std::pow(request.factor, level)));
+    all.push_back(fmt::format("{:.6g}", std::pow(factor, level)));
   return all;
 }
 
 /// A scene at a level: the mean size of its cells relative to its own, and the expectations.
 struct Level {
   Real h = 0;
-  std::vector<std::pair<std::string, Real>> expected;
+  Expectations expected;
 };
 
 template <int D>
@@ -43,7 +48,7 @@ Level level_of(const SceneInput& input) {
   for (const BodyPlan<D>& body : plan.bodies)
     cells += static_cast<Real>(body.geometry.grid.cells.size());
   Level level{std::pow(cells, -1.0 / D), {}};
-  for (const auto& [name, e] : plan.expectations) level.expected.emplace_back(name, e.value);
+  level.expected = plan.expectations;
   return level;
 }
 
@@ -52,87 +57,6 @@ Level level_of(const ConvergeRequest& request, const std::string& refinement) {
   settings.push_back(fmt::format("{}={}", refine_key, refinement));
   const SceneInput input = SceneInput::from_file(request.scene, settings);
   return scene_dimension(input) == 2 ? level_of<2>(input) : level_of<3>(input);
-}
-
-std::optional<Real> number(const SweepTable::Row* row, const std::string& column) {
-  if (!row || !row->numbers.contains(column)) return std::nullopt;
-  const std::string& text = row->numbers.at(column);
-  Real value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(value)
-                                                                  : std::nullopt;
-}
-
-/// The results of all levels.
-class Results {
- public:
-  Results(std::vector<Real> h, std::vector<const SweepTable::Row*> rows)
-      : h_(std::move(h)), rows_(std::move(rows)) {
-    for (const auto* row : rows_) seconds_.push_back(number(row, "seconds").value_or(0));
-  }
-
-  /// A line of the table: name, values, order, limit, error bar, seconds to 1 % and to 0.1 %,
-  /// expected.
-  std::vector<std::string> line(const std::string& name, const std::string& column,
-                                std::optional<Real> expected) const {
-    std::vector<std::string> cells{name};
-    std::vector<Real> values;
-    for (const auto* row : rows_) {
-      const std::optional<Real> value = number(row, column);
-      cells.push_back(value ? fmt::format("{:.6g}", *value) : "");
-      if (value) values.push_back(*value);
-    }
-    if (values.size() < rows_.size() || values.size() < 3) {
-      cells.insert(cells.end(), {"", "", "", "", ""});
-    } else {
-      const Convergence c = convergence_of(h_, values);
-      cells.push_back(c.order ? fmt::format("{:.1f}", *c.order) : "none");
-      cells.push_back(fmt::format("{:.6g}", c.limit));
-      cells.push_back(fmt::format("{:.2g}", c.error_bar));
-      for (const Real share : {1e-2, 1e-3}) cells.push_back(seconds_to(share, c, values));
-    }
-    cells.push_back(expected ? fmt::format("{:.6g}", *expected) : "");
-    return cells;
-  }
-  std::vector<std::string> seconds() const {
-    std::vector<std::string> cells{"seconds"};
-    for (const Real s : seconds_) cells.push_back(fmt::format("{:.3g}", s));
-    cells.resize(cells.size() + 6);
-    return cells;
-  }
-
- private:
-  /// Seconds of the first level from which on all are within a share of the limit.
-  std::string seconds_to(Real share, const Convergence& c, const std::vector<Real>& values) const {
-    std::size_t first = values.size();
-    while (first > 0 && std::abs(values[first - 1] - c.limit) <= share * std::abs(c.limit)) --first;
-    return first < values.size() ? fmt::format("{:.3g}", seconds_[first]) : "";
-  }
-
-  std::vector<Real> h_;
-  std::vector<const SweepTable::Row*> rows_;
-  std::vector<Real> seconds_;
-};
-
-void print_aligned(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::size_t> width(lines.front().size(), 0);
-  for (const auto& line : lines)
-    for (std::size_t c = 0; c < line.size(); ++c) width[c] = std::max(width[c], line[c].size());
-  for (const auto& line : lines) {
-    std::string text = fmt::format("{:<{}}", line[0], width[0]);
-    for (std::size_t c = 1; c < line.size(); ++c)
-      text += fmt::format("  {:>{}}", line[c], width[c]);
-    text.erase(text.find_last_not_of(' ') + 1);
-    say("{}\n", text);
-  }
-}
-
-std::string csv_of(const std::vector<std::vector<std::string>>& lines) {
-  std::string csv;
-  for (const auto& line : lines)
-    for (std::size_t c = 0; c < line.size(); ++c)
-      csv += line[c] + (c + 1 < line.size() ? "," : "\n");
-  return csv;
 }
 
 /// Names the lengths that change with the cells because the scene leaves them to the program.
@@ -159,84 +83,205 @@ void say_lengths_of_cells(const ConvergeRequest& request) {
   }
 }
 
-/// The levels of a scene.
-struct Series {
-  std::vector<std::string> levels;       ///< values of resolution.refine
-  std::vector<std::string> keys, fixed;  ///< of --set, and their values
-  std::vector<Real> h;
-  std::vector<std::pair<std::string, Real>> expected;
+/// A result of the scene: a column of sweep.csv.
+struct Result {
+  std::string name, column;
+  ExpectSettings asked;  ///< of it; nothing for a column of --of
 };
 
-/// Reads all levels before any is run. Throws InputError.
-Series series_of(const ConvergeRequest& request) {
-  Series series;
-  for (const std::string& setting : request.set) {
-    const SweptKey one = swept_key(setting);
-    if (one.values.size() > 1)
+/// The levels of a scene.
+struct Levels {
+  std::vector<std::string> refinements;  ///< values of resolution.refine
+  SweptRuns fixed;                       ///< the keys of --set with the value that all levels have
+  std::vector<Real> h;
+  std::vector<Result> results;
+  std::filesystem::path directory;
+};
+
+SweptRuns fixed_of(const ConvergeRequest& request) {
+  const SweptRuns fixed = combinations_of(request.set);
+  for (const std::string& setting : request.set)
+    if (const SweptKey one = swept_key(setting); one.values.size() > 1)
       throw InputError(fmt::format("--set {}: has {} values; allowed is one, of all levels",
                                    setting, one.values.size()));
-    series.keys.push_back(one.key);
-    series.fixed.push_back(one.values.front());
+  return fixed;
+}
+
+/// The keys and values of all runs, and others that differ.
+SweptRuns with_fixed(const SweptRuns& fixed, const std::vector<std::string>& keys,
+                     const std::vector<SweptRuns::Values>& values) {
+  SweptRuns runs{fixed.keys, {}};
+  runs.keys.insert(runs.keys.end(), keys.begin(), keys.end());
+  for (const SweptRuns::Values& own : values) {
+    runs.values.push_back(fixed.values.front());
+    runs.values.back().insert(runs.values.back().end(), own.begin(), own.end());
   }
-  series.levels = refinements_of(request);
-  for (const std::string& refinement : series.levels) {
+  return runs;
+}
+
+/// Reads all levels before any is run. Throws InputError.
+Levels levels_of(const ConvergeRequest& request) {
+  Levels levels;
+  levels.fixed = fixed_of(request);
+  levels.refinements = refinements_of(request);
+  Expectations expected;
+  for (const std::string& refinement : levels.refinements) {
     Level level = level_of(request, refinement);
-    if (!series.h.empty() && !(level.h < series.h.back() * (1 - 1e-9)))
+    if (!levels.h.empty() && !(level.h < levels.h.back() * (1 - 1e-9)))
       throw InputError(fmt::format(
           "{}: {} = {} has no more cells than the level before; expected is a larger --factor",
           request.scene, refine_key, refinement));
-    series.h.push_back(level.h);
-    series.expected = std::move(level.expected);
+    levels.h.push_back(level.h);
+    expected = std::move(level.expected);
   }
-  if (series.expected.empty() && request.of.empty())
+  for (auto& [name, e] : expected) levels.results.push_back({name, "expect." + name, std::move(e)});
+  for (const std::string& column : request.of) levels.results.push_back({column, column, {}});
+  if (levels.results.empty())
     throw InputError(request.scene +
                      ": has no [expect], and --of names no column: there is nothing to report");
-  return series;
+  levels.directory = request.output;
+  if (levels.directory.empty())
+    levels.directory =
+        "results/" + std::filesystem::path(request.scene).stem().string() + "-convergence";
+  return levels;
 }
 
-/// Prints and writes what the runs in a directory say.
-void report(const Series& series, const std::vector<std::string>& of,
-            const std::filesystem::path& directory) {
-  std::vector<std::string> keys = series.keys;
-  keys.emplace_back(refine_key);
-  SweepTable table(keys);
-  table.read(read_file(directory / "sweep.csv"), (directory / "sweep.csv").string());
+/// Makes runs in a directory, and returns their table and the exit code of the sweep.
+std::pair<SweepTable, int> table_of(const ConvergeRequest& request, const SweptRuns& runs,
+                                    const std::filesystem::path& directory) {
+  SweepRequest making;
+  making.scene = request.scene;
+  making.output = directory.string();
+  making.threads = request.threads;
+  making.overwrite = request.overwrite;
+  std::pair<SweepTable, int> made{SweepTable(runs.keys), sweep(making, runs)};
+  const std::filesystem::path csv = directory / "sweep.csv";
+  if (is_there(csv)) made.first.read(read_file(csv), csv.string());
+  return made;
+}
+
+std::vector<const SweepTable::Row*> rows_of(const SweepTable& table, const SweptRuns& runs) {
   std::vector<const SweepTable::Row*> rows;
-  std::vector<std::vector<std::string>> lines{{"result"}};
-  for (const std::string& level : series.levels) {
-    std::vector<std::string> values = series.fixed;
-    values.push_back(level);
-    rows.push_back(table.find(values));
-    lines.front().push_back("refine " + level);
+  for (const SweptRuns::Values& values : runs.values) rows.push_back(table.find(values));
+  return rows;
+}
+
+std::string cell(const std::optional<Real>& value, const char* format) {
+  return value ? fmt::format(fmt::runtime(format), *value) : "";
+}
+
+/// Seconds of the first level from which on all are within a share of the limit.
+std::optional<Real> seconds_to(Real share, Real limit,
+                               const std::vector<std::optional<Real>>& values,
+                               const std::vector<std::optional<Real>>& seconds) {
+  std::size_t first = values.size();
+  while (first > 0 && std::abs(*values[first - 1] - limit) <= share * std::abs(limit)) --first;
+  return first < values.size() ? seconds[first] : std::nullopt;
+}
+
+/// Whether a series has the order and the error bar of an expectation: "met" or "MISSED"; empty if
+/// none is given.
+std::string verdict_of(const ExpectSettings& asked, const std::optional<Convergence>& found) {
+  if (!asked.order && !asked.error_bar_within) return "";
+  const bool order = !asked.order || (found && found->order && *found->order >= *asked.order);
+  const bool bar = !asked.error_bar_within ||
+                   (found && found->error_bar <= *asked.error_bar_within * std::abs(found->limit));
+  return order && bar ? "met" : "MISSED";
+}
+
+/// Prints and writes the table of the levels; returns the exit code.
+int report(const Levels& levels, const Series& series) {
+  TableLines lines{{"result"}};
+  for (const std::string& level : levels.refinements) lines.front().push_back("refine " + level);
+  for (const char* name :
+       {"order", "limit", "error bar", "s to 1 %", "s to 0.1 %", "expected", "asked"})
+    lines.front().emplace_back(name);
+  const std::vector<std::optional<Real>> seconds = series.values("seconds");
+  bool met = true;
+  for (const Result& result : levels.results) {
+    const auto values = series.values(result.column);
+    const std::optional<Convergence> found = series.convergence(result.column);
+    std::vector<std::string>& line = lines.emplace_back(1, result.name);
+    for (const auto& value : values) line.push_back(cell(value, "{:.8g}"));
+    line.push_back(!found ? "" : found->order ? fmt::format("{:.1f}", *found->order) : "none");
+    line.push_back(found ? fmt::format("{:.8g}", found->limit) : "");
+    line.push_back(found ? fmt::format("{:.2g}", found->error_bar) : "");
+    for (const Real share : {1e-2, 1e-3})
+      line.push_back(found ? cell(seconds_to(share, found->limit, values, seconds), "{:.3g}") : "");
+    line.push_back(cell(result.asked.value, "{:.6g}"));
+    line.push_back(verdict_of(result.asked, found));
+    met = met && line.back() != "MISSED";
   }
-  for (const char* head : {"order", "limit", "error bar", "s to 1 %", "s to 0.1 %", "expected"})
-    lines.front().emplace_back(head);
-  const Results results(series.h, rows);
-  for (const auto& [name, value] : series.expected)
-    lines.push_back(results.line(name, "expect." + name, value));
-  for (const std::string& column : of) lines.push_back(results.line(column, column, std::nullopt));
-  lines.push_back(results.seconds());
-  print_aligned(lines);
-  replace_file(directory / "convergence.csv", csv_of(lines));
-  say("written to {}\n", (directory / "convergence.csv").string());
+  std::vector<std::string>& last = lines.emplace_back(1, "seconds");
+  for (const auto& s : seconds) last.push_back(cell(s, "{:.3g}"));
+  last.resize(lines.front().size());
+  print_and_write(lines, levels.directory / "convergence.csv");
+  return met ? exit_ok : exit_expectation;
+}
+
+/// The error of the scene itself in a series of which it is the first or the last run: a share of
+/// its value, or the number where the scene expects 0.
+std::string error_in(const Series& series, const Result& result, bool scene_is_first) {
+  const std::optional<Convergence> found = series.convergence(result.column);
+  if (!found) return "-";
+  const auto values = series.values(result.column);
+  const Real own = scene_is_first ? *values.front() : *values.back();
+  const Real error = scene_is_first ? found->error_of(own) : found->error_bar;
+  if (own == 0 || result.asked.value == 0.0) return fmt::format("{:.2g}", error);
+  return fmt::format("{:.2g} %", 100 * error / std::abs(own));
+}
+
+/// Varies what else the scene is an approximation in, and prints the errors of the scene itself.
+int report_budget(const ConvergeRequest& request, const Levels& levels, const Series& resolution,
+                  const SweepTable::Row* own) {
+  TableLines lines{{"result", "value", "resolution"}};
+  for (const Result& result : levels.results)
+    lines.push_back({result.name, cell(resolution.values(result.column).front(), "{:.6g}"),
+                     error_in(resolution, result, true)});
+  int worst = exit_ok;
+  const SceneInput input = SceneInput::from_file(request.scene, request.set);
+  for (const ModelError& error : model_errors(input)) {
+    std::vector<std::string> keys{refine_key};
+    keys.insert(keys.end(), error.keys.begin(), error.keys.end());
+    std::vector<SweptRuns::Values> changed;
+    for (const SweptRuns::Values& values : error.values) {
+      if (values.empty()) continue;
+      changed.push_back({levels.refinements.front()});
+      changed.back().insert(changed.back().end(), values.begin(), values.end());
+    }
+    const SweptRuns runs = with_fixed(levels.fixed, keys, changed);
+    const auto [table, code] = table_of(request, runs, levels.directory / error.name);
+    if (code >= exit_signal) return code;
+    if (code != exit_expectation) worst = std::max(worst, code);
+    std::vector<const SweepTable::Row*> rows = rows_of(table, runs);
+    rows.insert(error.scene_is_first ? rows.begin() : rows.end(), own);
+    const Series series(error.h, rows);
+    lines.front().push_back(error.name);
+    for (std::size_t k = 0; k < levels.results.size(); ++k)
+      lines[k + 1].push_back(error_in(series, levels.results[k], error.scene_is_first));
+  }
+  print_and_write(lines, levels.directory / "budget.csv");
+  return worst;
 }
 
 }  // namespace
 
 int converge(const ConvergeRequest& request) {
-  const Series series = series_of(request);
+  const Levels levels = levels_of(request);
   say_lengths_of_cells(request);
-  SweepRequest runs{request.scene, request.output, request.set, request.threads, request.overwrite};
-  if (runs.output.empty())
-    runs.output =
-        "results/" + std::filesystem::path(request.scene).stem().string() + "-convergence";
-  std::string values;
-  for (const std::string& level : series.levels) values += (values.empty() ? "" : ",") + level;
-  runs.set.push_back(fmt::format("{}={}", refine_key, values));
-  const int code = sweep(runs);
+  std::vector<SweptRuns::Values> values;
+  for (const std::string& refinement : levels.refinements) values.push_back({refinement});
+  const SweptRuns runs = with_fixed(levels.fixed, {refine_key}, values);
+  const auto [table, code] = table_of(request, runs, levels.directory);
   if (code >= exit_signal) return code;
-  report(series, request.of, runs.output);
-  return code == exit_expectation ? exit_ok : code;
+  const std::vector<const SweepTable::Row*> rows = rows_of(table, runs);
+  const Series series(levels.h, rows);
+  const int verdict = report(levels, series);
+  if (code != exit_ok && code != exit_expectation) return code;
+  if (request.budget)
+    if (const int end = report_budget(request, levels, series, rows.front()); end != exit_ok)
+      return end;
+  return verdict;
 }
 
 }  // namespace meniscus

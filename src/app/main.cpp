@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line.
-#include "app/commands.hpp"
-#include "app/converge.hpp"
 #include "app/documents.hpp"
 #include "app/hand_over.hpp"
 #include "app/interruption.hpp"
 #include "app/library_settings.hpp"
+#include "app/main_commands.hpp"
 #include "app/main_options.hpp"
 #include "app/manual.hpp"
 #include "app/print.hpp"
 #include "app/rank_process.hpp"
-#include "app/sweep.hpp"
 #include "input/names.hpp"
 #include "io/files.hpp"
 #include "io/info.hpp"
@@ -80,88 +78,6 @@ void add_keys_options(CLI::App& command, KeysRequest& request) {
       ->excludes(json);
 }
 
-void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
-  command.add_option("--set", settings, "replace a key of the scene, e.g. time.end='1 ns'")
-      ->type_name("KEY=VALUE")
-      ->type_size(1)
-      ->allow_extra_args(false);
-}
-
-/// --refine K, which sets resolution.refine.
-void add_refine_option(CLI::App& command, std::vector<std::string>& settings) {
-  command
-      .add_option_function<std::string>(
-          "--refine",
-          [&settings](const std::string& k) { settings.push_back("resolution.refine=" + k); },
-          "make the cells of all bodies finer by this number, as --set resolution.refine=K")
-      ->type_name("K")
-      ->check(not_empty());
-}
-
-void add_scene_options(CLI::App& command, RunRequest& request) {
-  command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
-  add_set_option(command, request.set);
-  add_refine_option(command, request.set);
-  command.add_option("--threads", request.threads, "number of threads; all cores by default")
-      ->check(integer_between(1, 4096));
-  command
-      .add_option(
-          "--until", request.until,
-          "stop after the first step that reaches this time, e.g. '0.1 ns', with a "
-          "checkpoint. Steps, rows and frames are those of the whole run, so that --restart "
-          "continues it bit for bit (the end of the scene, time.end, is hit exactly)")
-      ->type_name("TIME")
-      ->check(not_empty());
-}
-
-void add_run_options(CLI::App& command, RunRequest& request) {
-  command
-      .add_option("--output", request.output,
-                  "directory of the results; by default results/SCENE, or DIR of --restart DIR")
-      ->type_name("DIR")
-      ->check(not_empty());
-  command.add_flag("--overwrite", request.overwrite, "replace results that are already there");
-  CLI::Option* restart =
-      command
-          .add_option(
-              "--restart", request.restart,
-              "continue bit for bit from a checkpoint, or from the newest one of a run; any "
-              "number of threads. Only [time], [output] and [expect] of the scene may "
-              "change, and in the same directory neither fields nor columns. A finished run goes "
-              "on if time.end is made larger; its last two "
-              "steps, which were fitted to the old end, stay")
-          ->type_name("FILE|DIR")
-          ->check(not_empty());
-  command
-      .add_option("--frame", request.frame,
-                  "continue from this frame of the run instead; later rows and frames are replaced")
-      ->type_name("K")
-      ->check(integer_between(0, INT_MAX))
-      ->needs(restart);
-  command
-      .add_option_function<std::string>(
-          "--max-walltime",
-          [&request](const std::string& text) {
-            request.max_walltime = parse_duration(text);
-            if (!request.max_walltime)
-              throw CLI::ValidationError(
-                  "--max-walltime", "'" + text + "' is not a time; write H:M:S, M:S or seconds");
-          },
-          "write a checkpoint and stop after this time, exit code 142")
-      ->type_name("H:M:S");
-  command.add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
-}
-
-void add_revolve_options(CLI::App& command, RevolveRequest& request) {
-  command.add_option("SCENE", request.scene, "scene file (TOML) with dimension = 3")
-      ->required()
-      ->check(not_empty());
-  command.add_option("NEW", request.file, "the new scene file; printed if not given")
-      ->check(not_empty());
-  add_refine_option(command, request.set);
-  add_set_option(command, request.set);
-}
-
 struct NewRequest {
   std::string name, like;
   bool list = false;
@@ -192,50 +108,6 @@ void write_new_scene(const NewRequest& request) {
     say("{} is the mesh of its body\n", beside.string());
   }
   say("{0} begins as '{1}'; next: meniscus check {0}\n", file, request.like);
-}
-
-/// Options of a command that makes several runs: `name` ends the name of their directory.
-template <class Request>
-void add_series_options(CLI::App& command, Request& request, const std::string& name) {
-  command
-      .add_option("--output", request.output,
-                  "directory of the tables and of the runs; results/SCENE-" + name + " by default")
-      ->type_name("DIR")
-      ->check(not_empty());
-  command.add_option("--threads", request.threads, "number of threads; all cores by default")
-      ->check(integer_between(1, 4096));
-  command.add_flag("--overwrite", request.overwrite,
-                   "begin anew; without it runs that are done stay, and others go on");
-}
-
-void add_sweep_options(CLI::App& command, SweepRequest& request) {
-  command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
-  command
-      .add_option("--set", request.set,
-                  "run with each of the values; several --set: with all combinations")
-      ->type_name("KEY=VALUE,VALUE,...")
-      ->required()
-      ->type_size(1)
-      ->allow_extra_args(false);
-  add_series_options(command, request, "sweep");
-}
-
-void add_converge_options(CLI::App& command, ConvergeRequest& request) {
-  command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
-  command.add_option("--levels", request.levels, "number of resolutions; 3 by default")
-      ->check(integer_between(3, 10));
-  command
-      .add_option("--factor", request.factor,
-                  "by which the cells of a level are finer than those before; 1.5 by default")
-      ->check(CLI::Range(1.05, 4.0));
-  command
-      .add_option("--of", request.of,
-                  "a column of the history whose last value is reported beside the expectations")
-      ->type_name("COLUMN")
-      ->type_size(1)
-      ->allow_extra_args(false);
-  add_set_option(command, request.set);
-  add_series_options(command, request, "convergence");
 }
 
 /// Names, descriptions and options of all commands, for the manual page and the completion of the

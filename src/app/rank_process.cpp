@@ -31,7 +31,7 @@ int watch_over_rank(char** argv) {
         fmt::format("'{}' is not there, which runs on several ranks: it is built by "
                     "cmake -DMENISCUS_MPI=ON; without it start one process",
                     program.string()));
-  Child rank;
+  Children rank;
   const int status = rank.call(program.string(), argv);
   if (!WIFSIGNALED(status)) return WEXITSTATUS(status);
   if (rank.signal() == WTERMSIG(status)) return exit_signal + WTERMSIG(status);

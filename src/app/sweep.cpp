@@ -1,87 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus sweep`: runs a scene with all combinations of values of some keys.
+// `meniscus sweep`: runs a scene with several values of some keys.
 #include "app/sweep.hpp"
 
 #include "app/child.hpp"
 #include "app/commands.hpp"
 #include "app/print.hpp"
 #include "app/stages.hpp"
-#include "input/text.hpp"
 #include "io/files.hpp"
 #include "meniscus/error.hpp"
 
 #include <fmt/core.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <set>
+#include <map>
 #include <sstream>
 
 namespace meniscus {
 namespace {
 
-using Values = SweepTable::Values;
+using Clock = std::chrono::steady_clock;
 using Columns = std::vector<std::array<std::string, 3>>;  ///< name, unit, number
-
-/// All combinations of the values; the last key varies fastest.
-std::vector<Values> combinations(const std::vector<SweptKey>& keys) {
-  std::vector<Values> all(1);
-  for (const SweptKey& key : keys) {
-    std::vector<Values> longer;
-    for (const Values& begun : all)
-      for (const std::string& value : key.values) {
-        longer.push_back(begun);
-        longer.back().push_back(value);
-      }
-    all = std::move(longer);
-  }
-  return all;
-}
-
-/// The last part of a key, such as "gamma" of "surface_tension.drop.gamma". The whole key if
-/// another key ends with the same part.
-std::string short_name(const std::string& key, const std::vector<SweptKey>& keys) {
-  const auto last = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
-  const auto same = std::count_if(keys.begin(), keys.end(),
-                                  [&](const SweptKey& k) { return last(k.key) == last(key); });
-  return same == 1 ? last(key) : key;
-}
-
-/// Directory of a combination, such as "gamma=72.8mN_m", without characters that file names should
-/// not contain.
-std::string directory_name(const std::vector<SweptKey>& keys, const Values& values) {
-  std::string name;
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    name += (i > 0 ? "," : "") + short_name(keys[i].key, keys) + "=" + values[i];
-  for (char& c : name) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                       std::string_view("+-.,=_^").find(c) != std::string_view::npos;
-    if (!plain) c = '_';
-  }
-  return name;
-}
-
-std::vector<std::string> directory_names(const std::vector<SweptKey>& keys,
-                                         const std::vector<Values>& all) {
-  constexpr std::size_t longest = 255;  // bytes of a file name
-  std::vector<std::string> names;
-  for (const Values& values : all) {
-    names.push_back(directory_name(keys, values));
-    if (names.back().size() > longest)
-      throw InputError(
-          fmt::format("the directory of a run would be called '{}', which is too long; "
-                      "[constants] of the scene give short values names",
-                      names.back()));
-    if (std::count(names.begin(), names.end(), names.back()) > 1)
-      throw InputError(
-          fmt::format("two runs would have the directory '{}'; allowed are values that differ in "
-                      "letters and digits",
-                      names.back()));
-  }
-  return names;
-}
 
 /// The last row of the history of a run. Empty if there is none.
 Columns last_row(const std::filesystem::path& history) {
@@ -110,7 +52,7 @@ Columns expectations(const std::string& printed) {
     std::istringstream words(line);
     std::string name, obtained, expected, within, verdict;
     if (words >> name >> obtained >> expected >> within >> verdict &&
-        (verdict == "met" || verdict == "MISSED"))
+        (verdict == "met" || verdict == "MISSED" || verdict == "reported"))
       columns.push_back({"expect." + name, "", obtained});
   }
   return columns;
@@ -129,11 +71,15 @@ int gravity(int exit_code) {
                           std::begin(rising));
 }
 
+/// The runs of a sweep in their directories.
 class Sweep {
  public:
-  explicit Sweep(const SweepRequest& request)
-      : request_(request), folder_(request.output), table_(keys_of(request)) {
-    for (const std::string& setting : request.set) keys_.push_back(swept_key(setting));
+  Sweep(const SweepRequest& request, SweptRuns runs)
+      : request_(request),
+        runs_(std::move(runs)),
+        names_(directories_of(runs_)),
+        folder_(request.output),
+        table_(runs_.keys) {
     stages_ = SceneInput::from_file(request.scene).stages();
     if (folder_.empty())
       folder_ = std::filesystem::path("results") /
@@ -141,42 +87,36 @@ class Sweep {
   }
 
   int run() {
-    const std::vector<Values> all = combinations(keys_);
-    const std::vector<std::string> names = directory_names(keys_, all);
     open();
-    Child child;
-    int worst = exit_ok;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const std::string counted = fmt::format("{} of {}: {}", k + 1, all.size(), names[k]);
-      const SweepTable::Row* row = table_.find(all[k]);
-      int code = row != nullptr ? row->exit_code : exit_ok;
-      if (row != nullptr && is_done(code)) {
-        say("{}: done before, exit code {}\n", counted, code);
-      } else {
-        code = run_one(child, all[k], folder_ / names[k]);
-        say("{}: exit code {}\n", counted, code);
-      }
-      if (const auto signal = child.signal()) {
-        say("stopped by signal {}; the same command goes on{}\n", *signal,
-            request_.overwrite ? ", without --overwrite" : "");
-        return exit_signal + *signal;
-      }
-      if (gravity(code) > gravity(worst)) worst = code;
+    const std::size_t n = runs_.values.size();
+    std::size_t next = 0;
+    while (next < n || !going_.empty()) {
+      if (next < n && !children_.signal() && going_.size() < places())
+        begin(next++);
+      else if (!going_.empty())
+        end_next();
+      else
+        break;
     }
-    say("{} runs, a row each in {}\n", all.size(), (folder_ / "sweep.csv").string());
-    return worst;
+    if (const auto signal = children_.signal()) {
+      say("stopped by signal {}; the same command goes on{}\n", *signal,
+          request_.overwrite ? ", without --overwrite" : "");
+      return exit_signal + *signal;
+    }
+    say("{} runs, a row each in {}\n", n, (folder_ / "sweep.csv").string());
+    return worst_;
   }
 
  private:
-  static std::vector<std::string> keys_of(const SweepRequest& request) {
-    std::vector<std::string> keys;
-    for (const std::string& setting : request.set) {
-      keys.push_back(swept_key(setting).key);
-      if (std::count(keys.begin(), keys.end(), keys.back()) > 1)
-        throw InputError(fmt::format("--set {}: the key is named twice", keys.back()));
-    }
-    return keys;
-  }
+  /// A run in progress.
+  struct Going {
+    std::size_t number;
+    bool restarted;
+    double before;  ///< seconds that the run took until it was stopped
+    Clock::time_point since;
+  };
+
+  std::size_t places() const { return static_cast<std::size_t>(request_.parallel); }
 
   /// Opens the directory of the sweep and reads the results of earlier runs. Throws InputError if
   /// these used another scene, of which a copy is kept.
@@ -196,96 +136,98 @@ class Sweep {
     replace_file(copy, scene);
   }
 
-  int run_one(Child& child, const Values& values, const std::filesystem::path& directory) {
-    const auto start = std::chrono::steady_clock::now();
-    const SweepTable::Row* stopped = request_.overwrite ? nullptr : table_.find(values);
-    const double before = stopped && stopped->numbers.contains("seconds")
-                              ? std::strtod(stopped->numbers.at("seconds").c_str(), nullptr)
-                              : 0;
-    const bool begun = has_checkpoint(stages_.empty() ? directory : directory / stages_.front());
-    std::optional<ChildEnd> end;
-    if (begun && !request_.overwrite)
-      end = child.call(arguments(values, {"--restart", directory.string()}));
-    if (!end || end->exit_code == exit_input || end->exit_code == exit_file)
-      end = child.call(arguments(values, {"--output", directory.string(), "--overwrite"}));
-    Columns columns =
-        last_row((stages_.empty() ? directory : directory / stages_.back()) / "history.csv");
-    const Columns expected = expectations(end->output);
-    columns.insert(columns.end(), expected.begin(), expected.end());
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    columns.push_back({"seconds", "s", fmt::format("{:.3f}", before + elapsed.count())});
-    table_.put(values, end->exit_code, columns);
-    replace_file(folder_ / "sweep.csv", table_.text());
-    return end->exit_code;
+  void note(std::size_t number, const std::string& what) {
+    say("{} of {}: {}: {}\n", number + 1, names_.size(), names_[number], what);
   }
 
-  std::vector<std::string> arguments(const Values& values,
-                                     const std::vector<std::string>& where) const {
+  void note_end(std::size_t number, int code, const char* when) {
+    note(number, fmt::format("{}exit code {}", when, code));
+    if (gravity(code) > gravity(worst_)) worst_ = code;
+  }
+
+  /// Starts a run, or continues it if it was stopped; one that is done is left alone.
+  void begin(std::size_t number) {
+    const SweepTable::Row* row = table_.find(runs_.values[number]);
+    if (row != nullptr && is_done(row->exit_code))
+      return note_end(number, row->exit_code, "done before, ");
+    const std::filesystem::path directory = folder_ / names_[number];
+    const bool again = !request_.overwrite &&
+                       has_checkpoint(stages_.empty() ? directory : directory / stages_.front());
+    const double before = again && row != nullptr && row->numbers.contains("seconds")
+                              ? std::strtod(row->numbers.at("seconds").c_str(), nullptr)
+                              : 0;
+    start({number, again, before, Clock::now()});
+  }
+
+  void start(const Going& run) {
+    const std::string directory = (folder_ / names_[run.number]).string();
+    std::vector<std::string> words = arguments(runs_.values[run.number]);
+    if (run.restarted)
+      words.insert(words.end(), {"--restart", directory});
+    else
+      words.insert(words.end(), {"--output", directory, "--overwrite"});
+    going_.emplace(children_.start(words), run);
+  }
+
+  /// Waits for a run to end, and writes its row. A run that cannot be continued begins anew.
+  void end_next() {
+    const auto [process, end] = children_.next();
+    Going run = going_.at(process);
+    going_.erase(process);
+    if (run.restarted && (end.exit_code == exit_input || end.exit_code == exit_file)) {
+      run.restarted = false;
+      run.before = 0;
+      return start(run);
+    }
+    const std::filesystem::path directory = folder_ / names_[run.number];
+    Columns columns =
+        last_row((stages_.empty() ? directory : directory / stages_.back()) / "history.csv");
+    const Columns expected = expectations(end.output);
+    columns.insert(columns.end(), expected.begin(), expected.end());
+    const std::chrono::duration<double> elapsed = Clock::now() - run.since;
+    columns.push_back({"seconds", "s", fmt::format("{:.3f}", run.before + elapsed.count())});
+    table_.put(runs_.values[run.number], end.exit_code, columns);
+    table_.arrange(runs_.values);
+    replace_file(folder_ / "sweep.csv", table_.text());
+    note_end(run.number, end.exit_code, "");
+  }
+
+  std::vector<std::string> arguments(const SweptRuns::Values& values) const {
     std::vector<std::string> words{"run", request_.scene, "--quiet"};
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
+    for (std::size_t i = 0; i < runs_.keys.size(); ++i) {
       words.push_back("--set");
-      words.push_back(keys_[i].key + "=" + values[i]);
+      words.push_back(runs_.keys[i] + "=" + values[i]);
     }
-    if (request_.threads > 0) {
+    int threads = request_.threads;
+    if (threads == 0 && request_.parallel > 1)
+      threads = std::max(1, omp_get_max_threads() / request_.parallel);
+    if (threads > 0) {
       words.push_back("--threads");
-      words.push_back(fmt::format("{}", request_.threads));
+      words.push_back(fmt::format("{}", threads));
     }
-    words.insert(words.end(), where.begin(), where.end());
     return words;
   }
 
   const SweepRequest& request_;
+  SweptRuns runs_;
+  std::vector<std::string> names_;
   std::filesystem::path folder_;
-  std::vector<SweptKey> keys_;
   std::vector<std::string> stages_;  // of the scene
   SweepTable table_;
+  Children children_;
+  std::map<int, Going> going_;  // by process
+  int worst_ = exit_ok;
 };
 
 }  // namespace
 
-SweptKey swept_key(const std::string& setting) {
-  const std::size_t equals = setting.find('=');
-  SweptKey result{setting.substr(0, equals), {}};
-  if (equals == std::string::npos || equals == 0)
-    throw InputError(fmt::format(
-        "--set {}: expected KEY=VALUE,VALUE,... such as body.drop.core=4,6,8", setting));
-  std::string value;
-  int depth = 0;
-  char quote = 0;
-  const auto end_value = [&] {
-    const std::size_t first = value.find_first_not_of(' '), last = value.find_last_not_of(' ');
-    if (first == std::string::npos)
-      throw InputError(fmt::format("--set {}: a value is missing", setting));
-    if (value[first] == '=' || value[first] == '@')  // a spreadsheet would evaluate it as a formula
-      throw InputError(
-          fmt::format("--set {}: a value begins with '{}'; allowed are numbers, texts "
-                      "and formulas",
-                      setting, value[first]));
-    result.values.push_back(value.substr(first, last + 1 - first));
-    value.clear();
-  };
-  for (const char c : setting.substr(equals + 1)) {
-    if (quote == 0 && depth == 0 && c == ',') {
-      end_value();
-      continue;
-    }
-    if (c == '"' || c == '\'')
-      quote = quote == 0 ? c : quote == c ? char{0} : quote;
-    else if (quote == 0 && (c == '(' || c == '[' || c == '{'))
-      ++depth;
-    else if (quote == 0 && (c == ')' || c == ']' || c == '}'))
-      --depth;
-    value += c;
-  }
-  end_value();
-  const std::set<std::string> different(result.values.begin(), result.values.end());
-  if (different.size() < result.values.size())
-    throw InputError(fmt::format("--set {}: a value is named twice", setting));
-  return result;
+int sweep(const SweepRequest& request) {
+  return sweep(request, request.random > 0 ? sample_of(request.set, request.random)
+                                           : combinations_of(request.set));
 }
 
-int sweep(const SweepRequest& request) {
-  return Sweep(request).run();
+int sweep(const SweepRequest& request, SweptRuns runs) {
+  return Sweep(request, std::move(runs)).run();
 }
 
 }  // namespace meniscus

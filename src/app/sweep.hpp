@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a scene with all combinations of given values of some keys.
+// Runs a scene with several values of some keys.
 #pragma once
+#include "app/swept_runs.hpp"
+
 #include <array>
 #include <map>
 #include <string>
@@ -11,32 +13,25 @@ namespace meniscus {
 
 struct SweepRequest {
   std::string scene, output;
-  std::vector<std::string> set;  ///< "key=value,value,..."
-  int threads = 0;               ///< 0: all cores
+  std::vector<std::string> set;  ///< "key=value,value,..."; of a random sample "key=low,high"
+  int random = 0;                ///< runs of a random sample; 0: all combinations
+  int parallel = 1;              ///< runs at the same time
+  int threads = 0;               ///< of each run; 0: all cores, shared by runs at the same time
   bool overwrite = false;
 };
 
-/// Runs the combinations that have not been run yet, one after the other, each as a process of its
-/// own. The results of a run are in a directory whose name contains its values. Writes sweep.csv
-/// with a row of final numbers for each run. A run that fails does not stop the sweep. A signal
-/// stops it; the same command then continues it. Returns the most severe exit code of all runs.
-/// Throws InputError, FileError.
+/// Makes the runs that have not been made yet, each as a process of its own. The results of a run
+/// are in a directory whose name contains its values. Writes sweep.csv with a row of final numbers
+/// for each run. A run that fails does not stop the sweep. A signal stops it; the same command then
+/// continues it. Returns the most severe exit code of all runs. Throws InputError, FileError.
 int sweep(const SweepRequest& request);
-
-/// One key and its values, as texts.
-struct SweptKey {
-  std::string key;
-  std::vector<std::string> values;
-};
-
-/// Splits "key=a,b,c" into the key and its values. A comma within brackets or quotes does not
-/// separate values. Throws InputError.
-SweptKey swept_key(const std::string& setting);
+/// Makes the given runs; `request.set` and `request.random` are not read.
+int sweep(const SweepRequest& request, SweptRuns runs);
 
 /// The rows of sweep.csv: the values of the keys, and the numbers of each run by name.
 class SweepTable {
  public:
-  using Values = std::vector<std::string>;
+  using Values = SweptRuns::Values;
   struct Row {
     int exit_code = 0;
     std::map<std::string, std::string> numbers;  ///< by column
@@ -50,6 +45,8 @@ class SweepTable {
   void put(const Values& values, int exit_code,
            const std::vector<std::array<std::string, 3>>& name_unit_number);
   const Row* find(const Values& values) const;
+  /// Puts the rows of these runs in this order, behind all others.
+  void arrange(const std::vector<Values>& order);
   /// The table as CSV: names in the first line, units in the second.
   std::string text() const;
 

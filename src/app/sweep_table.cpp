@@ -95,6 +95,15 @@ const SweepTable::Row* SweepTable::find(const Values& values) const {
   return found == rows_.end() ? nullptr : &found->second;
 }
 
+void SweepTable::arrange(const std::vector<Values>& order) {
+  const auto place = [&](const std::pair<Values, Row>& row) {
+    const auto found = std::find(order.begin(), order.end(), row.first);
+    return found == order.end() ? -1 : found - order.begin();
+  };
+  std::stable_sort(rows_.begin(), rows_.end(),
+                   [&](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
 std::string SweepTable::text() const {
   Cells names = keys_, units(keys_.size());
   names.push_back("exit_code");

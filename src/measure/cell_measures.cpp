@@ -39,13 +39,19 @@ class CellShape {
   struct Thickest {
     Real thickness, x;
   };
+  /// The largest of many thicknesses, at the top of the parabola through it and its neighbours.
   static Thickest thickest(const MeanMeridian& meridian) {
+    constexpr Real dx = 1.0 / (compared_places - 1);
     Thickest found{0, 0};
     for (int k = 0; k < compared_places; ++k) {
-      const Real x = Real(k) / (compared_places - 1), t = meridian.thickness(x);
+      const Real x = k * dx, t = meridian.thickness(x);
       // The margin prevents round-off from choosing a position on flat faces.
       if (t > found.thickness * (1 + 1e-9)) found = {t, x};
     }
+    if (!(found.x > dx / 2) || !(found.x < 1 - dx / 2)) return found;
+    const Real inward = meridian.thickness(found.x - dx) - found.thickness,
+               outward = meridian.thickness(found.x + dx) - found.thickness;
+    if (inward + outward < 0) found.x += 0.5 * dx * (inward - outward) / (inward + outward);
     return found;
   }
   /// Range of heights of the middle surface relative to the largest thickness. The rim, beyond 0.95

@@ -82,9 +82,12 @@ ExpectationResult evaluate(const std::string& name, const ExpectSettings& e,
   const std::vector<Real>& y = history(e.of);
   const bool at_a_time = e.reduce == "at";
   const Real to = (at_a_time ? e.at : e.to).value_or(end), from = at_a_time ? to : e.from;
-  ExpectationResult result{name, 0, e.value, 0, true, false};
-  result.tolerance =
-      std::max(e.within.value_or(0), e.within_relative.value_or(0) * std::abs(e.value));
+  ExpectationResult result{name, 0, e.value, {}, true, false};
+  if (e.judged()) {
+    result.expected = e.value.value_or(0);
+    result.tolerance =
+        std::max(e.within.value_or(0), e.within_relative.value_or(0) * std::abs(*result.expected));
+  }
   result.reached = covers(time, from, to);
   if (!result.reached) return result;
   if (at_a_time) {
@@ -94,8 +97,20 @@ ExpectationResult evaluate(const std::string& name, const ExpectSettings& e,
     const std::size_t needed = e.reduce == "decay_rate" ? 3 : 1;
     result.obtained = span.y.size() < needed ? std::nan("") : reduce(e, span.time, span.y);
   }
-  result.met = std::abs(result.obtained - e.value) <= result.tolerance;
+  result.met = result.tolerance ? std::abs(result.obtained - *result.expected) <= *result.tolerance
+                                : !std::isnan(result.obtained);
   return result;
+}
+
+std::string verdict_of(const ExpectationResult& r) {
+  if (!r.reached) return "not reached";
+  if (!r.met) return "MISSED";
+  return r.tolerance ? "met" : "reported";
+}
+
+/// A number with its digits, or a dash.
+std::string cell_of(const std::optional<Real>& number, int digits) {
+  return number ? fmt::format("{:.{}g}", *number, digits) : "-";
 }
 
 }  // namespace
@@ -112,13 +127,13 @@ std::vector<ExpectationResult> evaluate_expectations(
 std::string expectation_table(const std::vector<ExpectationResult>& results) {
   std::size_t width = 11;
   for (const auto& r : results) width = std::max(width, r.name.size());
-  std::string table = fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}  {}\n", "expectation", width,
-                                  "obtained", "expected", "within", "");
+  const auto line = [&](const auto&... cells) {
+    return fmt::format("{:<{}}  {:>16}  {:>14}  {:>10}  {}\n", cells...);
+  };
+  std::string table = line("expectation", width, "obtained", "expected", "within", "");
   for (const auto& r : results)
-    table += r.reached ? fmt::format("{:<{}}  {:>14.7g}  {:>14.7g}  {:>10.3g}  {}\n", r.name, width,
-                                     r.obtained, r.expected, r.tolerance, r.met ? "met" : "MISSED")
-                       : fmt::format("{:<{}}  {:>14}  {:>14.7g}  {:>10.3g}  not reached\n", r.name,
-                                     width, "-", r.expected, r.tolerance);
+    table += line(r.name, width, cell_of(r.reached ? std::optional(r.obtained) : std::nullopt, 10),
+                  cell_of(r.expected, 7), cell_of(r.tolerance, 3), verdict_of(r));
   return table;
 }
 

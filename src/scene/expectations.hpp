@@ -4,6 +4,7 @@
 #include "scene/settings.hpp"
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,10 +17,10 @@ using HistoryColumns = std::function<const std::vector<Real>&(const std::string&
 /// Result of an expectation.
 struct ExpectationResult {
   std::string name;
-  Real obtained = 0;                 ///< NaN if the history has too few rows
-  Real expected = 0, tolerance = 0;  ///< tolerance is absolute
+  Real obtained = 0;                                  ///< NaN if the history has too few rows
+  std::optional<Real> expected = {}, tolerance = {};  ///< absolute; without one it is reported only
   bool reached = true;  ///< false if the history does not cover the times of the expectation
-  bool met = false;
+  bool met = false;     ///< of a number that is reported only: it is one
 };
 
 /// Evaluates all expectations. `end` is the end time of the scene.

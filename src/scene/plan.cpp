@@ -337,11 +337,9 @@ void require_memory_for(const Block& root, const BodyPlans<D>& bodies) {
   }
 }
 
-/// Reports expectations that can never be met or are always met.
+/// Reports expectations that can never be met.
 void require_reachable(const Block& block, const ExpectSettings& e, Real end) {
-  if (!e.within && !e.within_relative)
-    block.problem("", "says no tolerance; give within or within_relative");
-  if (e.within_relative && !e.within && e.value == 0)
+  if (e.within_relative && !e.within && e.value.value_or(0) == 0)
     block.problem("within_relative", "nothing is within a fraction of 0; give within");
   for (const auto& [key, time] : {std::pair("at", e.at), std::pair("to", e.to)})
     if (time > end) block.problem(key, fmt::format("is after the end; allowed is <= {:.9g}", end));

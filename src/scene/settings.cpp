@@ -212,15 +212,6 @@ Row<ExpectSettings> column_row(const std::string& key, std::optional<Real> Expec
   return row;
 }
 
-Row<ExpectSettings> expected_row() {
-  auto row = real_row("value", &ExpectSettings::value, dimension::none, range::any,
-                      "expected number, in the unit of the column or a text with a unit", 0.0);
-  row.read = [](ExpectSettings& e, const Block& block) {
-    e.value = in_unit_of_column(block, "value", range::any, 0.0);
-  };
-  return row;
-}
-
 }  // namespace
 
 Rows<ExpectSettings> ExpectSettings::rows() {
@@ -239,10 +230,16 @@ Rows<ExpectSettings> ExpectSettings::rows() {
       optional_row("to", &S::to, dimension::time, range::positive, "time.end",
                    "end of the span, for the others"),
       column_row("level", &S::level, range::any, "for reduce = \"falls\""),
-      expected_row(),
-      column_row("within", &S::within, range::non_negative, "largest difference"),
+      column_row("value", &S::value, range::any, "expected number; 0 if there is a tolerance"),
+      column_row("within", &S::within, range::non_negative,
+                 "largest difference; without a tolerance the number is only reported"),
       optional_row("within_relative", &S::within_relative, dimension::none, range::positive, "none",
                    "largest difference relative to value; the larger of the two counts"),
+      optional_row("order", &S::order, dimension::none, range::positive, "none",
+                   "least order of convergence that `meniscus converge` has to find"),
+      optional_row("error_bar_within", &S::error_bar_within, dimension::none, range::positive,
+                   "none",
+                   "largest error bar that `meniscus converge` may find, relative to the limit"),
   };
 }
 

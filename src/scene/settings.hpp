@@ -84,9 +84,12 @@ struct ExpectSettings {
   std::string of;              ///< column of the history; the name of the table if empty
   std::string reduce;          ///< how the record becomes one number
   std::optional<Real> at, to;  ///< times; absent: the end of the scene
-  Real from = 0, value = 0;
+  Real from = 0;
   std::optional<Real> level;                    ///< for the reduction "falls"
-  std::optional<Real> within, within_relative;  ///< tolerances, at least one is given
+  std::optional<Real> value;                    ///< absent: the number is reported
+  std::optional<Real> within, within_relative;  ///< tolerances; without one it is reported, too
+  std::optional<Real> order, error_bar_within;  ///< asked of a convergence series
+  bool judged() const { return within || within_relative; }
   static Rows<ExpectSettings> rows();
 };
 

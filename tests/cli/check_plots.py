@@ -291,6 +291,35 @@ points = 4
                       "nodal\" has modes without energy and is unstable"):  # fmt: skip
             self.assertIn(words, text)
 
+    def test_sweeps_and_convergence(self):
+        """Errors against spacing and time of a series, results against each key of a sweep, and a page of each."""
+        shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 2\nrings = 2"
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "scene.toml").write_text("title = 'A <drop>'\n" + SCENE.format(dimension=2, shape=shape))
+            for call, pictures, words in (
+                (["converge"], {"error_against_h", "error_against_time"}, ("Convergence", "error bar", "aspect")),
+                (["sweep", "--set", "body.drop.material.viscosity=0.5,1", "--set", "surface_tension[0].gamma=1,2"],
+                 {"against_viscosity", "against_gamma"}, ("Runs", "exit_code", "expect.aspect")),
+            ):  # fmt: skip
+                out = folder / call[0]
+                subprocess.run(
+                    [PROGRAM, call[0], folder / "scene.toml", *call[1:], "--output", out], check=True, capture_output=True
+                )
+                for script in ("plot", "report"):
+                    done = subprocess.run(
+                        ["/usr/bin/python3", "-B", ROOT / f"tools/plotting/{script}.py", out], capture_output=True, text=True
+                    )
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                sizes = {path.stem: path.stat().st_size for path in out.glob("plots/*.png")}
+                self.assertEqual(set(sizes), pictures)
+                self.assertGreater(min(sizes.values()), 10000)
+                reader = Page()
+                reader.feed((out / "report.html").read_text())
+                self.assertEqual((reader.open, len(reader.sources)), ([], len(pictures)))
+                for word in ("A <drop>", *words):
+                    self.assertIn(word, reader.text)
+
     def test_a_field_on_surfaces_and_lines_of_probes(self):
         shape = "shape = 'ball'\nradius = 1\ncore = 4\nlayers = 2"
         probes = """

@@ -128,6 +128,40 @@ class Sweep(ProgramTest):
         self.assertEqual(self.call(*call).stdout.count("done before"), 4)
         self.assertEqual(len(self.table()[0]), 6)
 
+    def test_a_random_sample(self):
+        """A Latin hypercube: one value in each part of each interval; the same for the same request."""
+        scene = self.scene(SHEET)
+        call = ["sweep", scene, "--set", "body.sheet.material.mu=1e5,2e5", "--set", "time.end=1 ms,2 ms", "--random", "5",
+                "--output", "out"]
+        self.call(*call, "--parallel", "2")
+        rows, _ = self.table("out/sweep.csv")
+        for key, unit, low, high in (("body.sheet.material.mu", "", 1e5, 2e5), ("time.end", " ms", 1, 2)):
+            values = [float(row[key].removesuffix(unit)) for row in rows]
+            self.assertEqual(sorted(int(5 * (x - low) / (high - low)) for x in values), [0, 1, 2, 3, 4])
+        for row in rows:
+            self.assertAlmostEqual(float(row["time"]) / float(row["time.end"].split()[0]), 1e-3, delta=1e-12)
+        self.assertEqual(self.call(*call).stdout.count("done before"), 5)
+        for setting, words in (("time.end=1", "takes two bounds"), ("time.end=1 ms,2 s", "different units"),
+                               ("time.end=2,1", "do not rise"), ("time.end=a,b", "is not a number")):
+            self.refused(["sweep", scene, "--set", setting, "--random", "3", "--output", "x"], 3, words)
+        self.refused(["sweep", scene, "--set", "time.end=1,2", "--random", "0", "--output", "x"], 2, "allowed is an integer >= 1")
+
+    def test_runs_at_the_same_time(self):
+        """They have the numbers of runs one after the other, in the same order, also after a signal."""
+        scene = self.scene(DROP)
+        call = ["sweep", scene, "--set", "body.drop.material.viscosity=0.6 mPa s,0.7 mPa s,0.8 mPa s", "--threads", "1"]
+        self.call(*call, "--output", "one")
+        process = self.start(*call, "--output", "three", "--parallel", "3")
+        histories = [self.directory / "three" / f"viscosity=0.{k}_mPa_s" / "history.csv" for k in (6, 7, 8)]
+        while not all(h.exists() and h.read_text().count("\n") > 5 for h in histories):
+            time.sleep(0.02)
+        process.send_signal(signal.SIGTERM)
+        said, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM, said)
+        self.assertEqual([r["exit_code"] for r in self.table("three/sweep.csv")[0]], ["143"] * 3)
+        self.call(*call, "--output", "three", "--parallel", "2")
+        self.assertEqual(self.results("three"), self.results("one"))
+
     def test_a_failing_run_does_not_stop_the_others(self):
         scene = self.scene(BLOCK + '[expect]\nslow = { of = "kinetic_energy", value = 0, within = 1e-3 }\n')
         done = self.call("sweep", scene, "--set", "body_force[0].acceleration=[0,0,0],[1,0,0],[\"1e9*x\",0,0]",
@@ -189,7 +223,8 @@ class Pictures(ProgramTest):
         self.assertIn("usage: meniscus plot", self.call("plot", "--help").stdout)
         self.refused(["plot", "nowhere"], 5, "meniscus plot: ", "nowhere")
         self.call("sweep", "scene.toml", "--set", "time.end=0.001,0.002", "--output", "s")
-        self.refused(["plot", "s"], 5, "s has several runs; name one of them: end=0.001, end=0.002")
+        self.assertIn("s/plots/against_end.png", self.call("plot", "s").stdout)
+        self.refused(["plot", "s", "--movie"], 5, "s has several runs; name one of them: end=0.001, end=0.002")
         self.refused(["report", "out", "--nonsense"], 2, "usage: meniscus report", "--nonsense")
 
 

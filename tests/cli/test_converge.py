@@ -77,6 +77,46 @@ class Converge(ProgramTest):
         self.assertIn("refine 4", printed)
         self.assertTrue(math.isclose(float(row["expected"]), -3.66e-3))
 
+    def test_what_the_scene_asks_of_a_series(self):
+        """Numbers without a tolerance are reported; a missed order or error bar is exit code 7."""
+        scene = BEAM.replace("within_relative = 0.02", "order = 0.8, error_bar_within = 0.01")
+        self.scene(scene + 'pressure = { of = "beam.mean_pressure", error_bar_within = 1e-3 }\n', "beam")
+        told = self.call("run", "beam.toml", "--output", "alone").stdout
+        self.assertRegex(told, r"deflection +-0\.003\d+ +-0\.00366 +-  reported")
+        self.assertRegex(told, r"pressure +\S+ +- +-  reported")
+        rows, _ = self.table("beam.toml", "--output", "out", "--factor", "2", code=7)
+        self.assertEqual((rows["deflection"]["asked"], rows["pressure"]["asked"]), ("met", "MISSED"))
+        self.scene(scene, "beam")
+        self.assertEqual(self.table("beam.toml", "--output", "out", "--overwrite")[0]["deflection"]["asked"], "met")
+        self.scene(scene.replace("order = 0.8", "order = 5"), "beam")
+        self.assertEqual(self.table("beam.toml", "--output", "out", "--overwrite", code=7)[0]["deflection"]["asked"], "MISSED")
+
+    def test_budget(self):
+        """Ranges, bulk moduli and steps of a scene, one after the other; the parts are percent of the value."""
+        scene = DROP.replace('end = "60 ps"', 'end = "3 ps"') + """
+[[contact]]
+bodies = ["drop"]
+contact_angle = 90
+range = "0.5 nm"
+offset = "0.2 nm"
+partner = { type = "half_space", point = [0, 0, "-8 nm"], normal = [0, 0, 1] }
+[expect]
+aspect = { of = "drop.aspect" }
+"""
+        self.scene(scene, "drop")
+        _, printed = self.table("drop.toml", "--output", "out", "--factor", "1.5", "--budget")
+        with (self.directory / "out" / "budget.csv").open() as file:
+            row = next(csv.DictReader(file))
+        self.assertEqual(list(row), ["result", "value", "resolution", "range", "compressibility", "step"])
+        for part in ("resolution", "range", "compressibility", "step"):
+            self.assertRegex(row[part], r"^\S+ %$", printed)
+        self.assertEqual(float(row["range"].split()[0]), 0)  # the wall is out of reach
+        self.assertGreater(float(row["compressibility"].split()[0]), 0)
+        runs = sorted(path.name for path in (self.directory / "out" / "range").iterdir() if path.is_dir())
+        self.assertEqual(runs, ["refine=1,range=1.125e-09", "refine=1,range=7.5e-10"])
+        steps = sorted(path.name for path in (self.directory / "out" / "step").iterdir() if path.is_dir())
+        self.assertEqual(steps, ["refine=1,safety=0.4", "refine=1,safety=0.6"])
+
     def test_a_series_goes_on(self):
         self.scene(BEAM, "beam")
         first = self.table("beam.toml", "--output", "out", "--factor", "2")[1]

@@ -353,7 +353,7 @@ class Scenes(ProgramTest):
     def test_expectations(self):
         text = BLOCK + """
         [expect]
-        a = { of = "step", value = 1 }
+        a = { of = "step", within_relative = 1 }
         b = { of = "step", value = 0, within_relative = 1 }
         c = { of = "step", value = 1, within = 1, at = 0.5 }
         d = { of = "step", value = 1, within = 1, reduce = "max", from = 0.4 }

@@ -634,7 +634,7 @@ class Reports(ProgramTest):
                 "[[remap]]": "body at condition nodes",
                 "[contact.partner] of any type": "type displacement direction force stiffness base ramp",
                 '[contact.partner] type = "frame" (2D)': "low high thickness",
-                "[expect.NAME]": "of reduce at from to level value within within_relative"}.items():
+                "[expect.NAME]": "of reduce at from to level value within within_relative order error_bar_within"}.items():
             rows = tables[heading].split("\n  example\n")[0]
             self.assertEqual([line.split()[0] for line in rows.splitlines()[1:]], keys.split(), heading)
         self.assertIn('  example\n    [[surface_tension]]\n    body = "drop"\n    gamma = 1\n', text)

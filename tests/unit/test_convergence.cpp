@@ -24,26 +24,35 @@ TEST(Convergence, FindsOrderAndLimitOfPowers) {
       EXPECT_NEAR(*found.order, p, 1e-9);
       EXPECT_NEAR(found.limit, 7, 1e-11);
       EXPECT_GE(found.error_bar, std::abs(value.back() - 7)) << "order " << p;
+      EXPECT_GE(found.error_of(value.front()), std::abs(value.front() - 7)) << "order " << p;
       if (p <= 2) {
         EXPECT_NEAR(found.error_bar, 1.25 * std::abs(value.back() - 7), 1e-11);
       }
     }
 }
 
-TEST(Convergence, HasTheSpreadWithoutAnOrder) {
-  const std::vector<Real> h{0.3, 0.2, 0.1};
-  for (const auto& value : std::vector<std::vector<Real>>{{1, 1.4, 1.1}, {1, 1.1, 1.6}}) {
+TEST(Convergence, IsCarefulWithoutAnOrder) {
+  const std::vector<Real> h{0.4, 0.2, 0.1};
+  const Real slow = 1.25 / (std::sqrt(2.0) - 1);  // of one step at order 1/2
+  const std::vector<std::pair<std::vector<Real>, Real>> cases{
+      {{1, 1.4, 1.1}, 1.5 * 0.4}, {{1, 1.1, 1.6}, 0.5 * slow}, {{1, 1.5, 1.9}, 1.5 * 0.9}};
+  for (const auto& [value, bar] : cases) {
     const Convergence found = convergence_of(h, value);
     EXPECT_FALSE(found.order);
     EXPECT_EQ(found.limit, value.back());
-    EXPECT_DOUBLE_EQ(found.error_bar, value[0] == 1 && value[2] == 1.1 ? 0.4 : 0.6);
+    EXPECT_DOUBLE_EQ(found.error_bar, bar);
+    EXPECT_DOUBLE_EQ(found.error_of(1), value.back() - 1 + bar);
   }
+  const Convergence chance = convergence_of(h, {1, 1.99, 2});  // order 6.6
+  EXPECT_GT(chance.order.value(), 6);
+  EXPECT_DOUBLE_EQ(chance.error_bar, 1.5);
   const Convergence same = convergence_of(h, {2, 2, 2});
   EXPECT_FALSE(same.order);
   EXPECT_EQ(same.error_bar, 0);
   EXPECT_EQ(same.limit, 2);
   const Convergence wrong = convergence_of(h, {1, NAN, 2});
   EXPECT_FALSE(wrong.order);
+  EXPECT_TRUE(std::isnan(wrong.error_bar));
 }
 
 /// Number of nodes of a shape whose scene has [resolution].
@@ -73,6 +82,8 @@ TEST(Convergence, EveryShapeIsRefinedByOneNumber) {
   expect_finer<3>();
   EXPECT_EQ(nodes<2>("disk", "radius = 1\ncore = 4\nrings = 3\n", 1.5),
             nodes<2>("disk", "radius = 1\ncore = 6\nrings = 5\n", 1));
+  EXPECT_EQ(nodes<2>("ring", "radius = 1\nthickness = 0.2\naround = 40\nlayers = 4\n", 2.25),
+            nodes<2>("ring", "radius = 1\nthickness = 0.2\naround = 92\nlayers = 10\n", 1));
   EXPECT_EQ(nodes<3>("half_sphere", "radius = 1\ncore = 4\nlayers = 2\n", 1.3),
             nodes<3>("half_sphere", "radius = 1\ncore = 6\nlayers = 2\n", 1));
   EXPECT_EQ(nodes<3>("box", "size = [1, 2, 3]\nspacing = 0.5\n", 2),

@@ -27,7 +27,10 @@ class Expectations : public ::testing::Test {
   }
 
   ExpectationResult evaluate(ExpectSettings e, Real end = 10) const {
-    if (!e.within && !e.within_relative) e.within = 1e-12;
+    if (!e.judged()) e.within = 1e-12;
+    return evaluate_as_it_is(std::move(e), end);
+  }
+  ExpectationResult evaluate_as_it_is(ExpectSettings e, Real end = 10) const {
     return evaluate_expectations(
                {{"name", std::move(e)}},
                [&](const std::string& name) -> const std::vector<Real>& {
@@ -101,9 +104,9 @@ TEST_F(Expectations, TheLargerToleranceCounts) {
   EXPECT_FALSE(evaluate(e).met);
   e.within_relative = 0.2;
   EXPECT_TRUE(evaluate(e).met);
-  EXPECT_DOUBLE_EQ(evaluate(e).tolerance, 1);
+  EXPECT_DOUBLE_EQ(evaluate(e).tolerance.value(), 1);
   e.within = 3;
-  EXPECT_DOUBLE_EQ(evaluate(e).tolerance, 3);
+  EXPECT_DOUBLE_EQ(evaluate(e).tolerance.value(), 3);
 }
 
 TEST_F(Expectations, WhatTheHistoryDoesNotCoverIsNotReached) {
@@ -150,16 +153,39 @@ TEST_F(Expectations, WhatCannotBeToldIsMissed) {
   EXPECT_FALSE(evaluate(mean).met);
 }
 
+TEST_F(Expectations, WithoutAToleranceTheNumberIsReported) {
+  ExpectSettings e = over("line", "max", 5);
+  ExpectationResult result = evaluate_as_it_is(e);
+  EXPECT_TRUE(result.met);
+  EXPECT_FALSE(result.tolerance);
+  EXPECT_EQ(result.expected, 5);
+  EXPECT_EQ(result.obtained, 6);
+  e.value.reset();
+  EXPECT_FALSE(evaluate_as_it_is(e).expected);
+  e.within = 6;  // without a value of 0
+  EXPECT_TRUE(evaluate_as_it_is(e).met);
+  EXPECT_EQ(evaluate_as_it_is(e).expected, 0);
+  e = over("decay", "decay_rate", 0);
+  e.from = 2.1;
+  e.to = 3.4;  // two rows
+  EXPECT_FALSE(evaluate_as_it_is(e).met);
+}
+
 TEST_F(Expectations, Table) {
   ExpectationResult met{"aspect", 1.00193, 1.0019, 0.005, true, true}, missed = met, open = met;
+  ExpectationResult told{"told", -1.0 / 3, {}, {}, true, true}, wrong = told;
+  wrong.obtained = std::nan("");
+  wrong.met = false;
   missed.name = "a_long_name_of_a_rate";
   missed.met = false;
   open.reached = open.met = false;
-  EXPECT_EQ(expectation_table({met, missed, open}),
-            "expectation                  obtained        expected      within  \n"
-            "aspect                        1.00193          1.0019       0.005  met\n"
-            "a_long_name_of_a_rate         1.00193          1.0019       0.005  MISSED\n"
-            "aspect                              -          1.0019       0.005  not reached\n");
+  EXPECT_EQ(expectation_table({met, missed, open, told, wrong}),
+            "expectation                    obtained        expected      within  \n"
+            "aspect                          1.00193          1.0019       0.005  met\n"
+            "a_long_name_of_a_rate           1.00193          1.0019       0.005  MISSED\n"
+            "aspect                                -          1.0019       0.005  not reached\n"
+            "told                      -0.3333333333               -           -  reported\n"
+            "told                                nan               -           -  MISSED\n");
 }
 
 }  // namespace

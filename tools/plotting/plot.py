@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the pictures of a run or of a convergence study. Called by tools/plot."""
+"""Draws the pictures of a run, a study, a sweep or a convergence. Called by tools/plot."""
 
 import argparse
 import pathlib
@@ -19,6 +19,7 @@ import nematics
 import outside
 import probes
 import sections
+import series
 import studies
 import style
 import surfaces
@@ -35,9 +36,9 @@ def positive(text):
 
 def arguments():
     parser = argparse.ArgumentParser(
-        prog=style.COMMAND, description="Draws pictures of a run or a study into DIR/plots."
+        prog=style.COMMAND, description="Draws pictures of a run, a study, a sweep or a convergence into DIR/plots."
     )
-    parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run or study")
+    parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run, study, sweep or convergence")
     parser.add_argument(
         "--field",
         help="field that colours cross-sections, surfaces and movie (default: the first scalar); "
@@ -67,6 +68,8 @@ def arguments():
 def pictures_of(args):
     if (args.dir / "study.json").exists():
         return studies.draw(studies.Study(args.dir), args.field)
+    if series.is_series(args.dir):
+        return series.draw(args.dir)
     if args.beside:
         runs = {d.resolve().name: Results(d) for d in (args.dir, *args.beside)}
         return comparison.draw(runs, args.measure)

@@ -7,11 +7,13 @@ import base64
 import html
 import io
 import pathlib
+import tomllib
 
 import numpy as np
 
 import outside
 import plot
+import series
 import style
 from results import Results, meniscus
 from runlog import Log
@@ -54,7 +56,7 @@ def expectations(log):
         return ""
     rows = []
     for name, obtained, expected, within, verdict in log.expected:
-        kind = "met" if verdict == "met" else "missed"
+        kind = {"met": "met", "reported": "reported"}.get(verdict, "missed")
         cells = "".join(f'<td class="number">{escaped(c)}</td>' for c in (obtained, expected, within))
         rows.append(f'<tr><td>{escaped(name)}</td>{cells}<td class="{kind}">{escaped(verdict)}</td></tr>')
     head = "".join(f"<th>{h}</th>" for h in ("expectation", "obtained", "expected", "within", ""))
@@ -86,9 +88,9 @@ def columns(run):
     return table(rows, ("column", "unit", "first", "last", "least", "largest"), numbers=(2, 3, 4, 5))
 
 
-def figures(run, args):
+def figures(pictures):
     shown = []
-    for name, figure in plot.pictures_of_run(run, args.field, args.frames).items():
+    for name, figure in pictures.items():
         picture = io.BytesIO()
         outside.save(figure, picture, format="png", dpi=130)
         text = base64.b64encode(picture.getvalue()).decode()
@@ -119,7 +121,7 @@ def page(run, log, args):
         expectations(log),
         warnings(log),
         "<h2>Pictures</h2>",
-        figures(run, args),
+        figures(plot.pictures_of_run(run, args.field, args.frames)),
         "<h2>History</h2>",
         columns(run),
         "<h2>What was decided</h2>",
@@ -130,6 +132,18 @@ def page(run, log, args):
         provenance(run),
         items(log.calls) if len(log.calls) > 1 else "",
     ]
+    return document(title, parts)
+
+
+def page_of_series(folder):
+    title = tomllib.loads(meniscus.text_of(folder / "scene.toml")).get("title") or folder.resolve().name
+    parts = [f"<h1>{escaped(title)}</h1>"]
+    for name, (heading, *rows) in series.tables(folder):
+        parts += [f"<h2>{escaped(name)}</h2>", table(rows, heading, numbers=range(1, len(heading)))]
+    return document(title, [*parts, "<h2>Pictures</h2>", figures(series.draw(folder))])
+
+
+def document(title, parts):
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         f"<title>{escaped(title)}</title><style>{LOOKS}</style></head>\n<body>\n"
@@ -140,14 +154,17 @@ def page(run, log, args):
 
 def main():
     parser = argparse.ArgumentParser(
-        prog=style.COMMAND, description="Writes DIR/report.html, one page about a run."
+        prog=style.COMMAND, description="Writes DIR/report.html, one page about a run, a sweep or a convergence."
     )
-    parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run")
+    parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run, sweep or convergence")
     parser.add_argument("--field", help="as of tools/plot")
     parser.add_argument("--frames", type=int, help="as of tools/plot")
     args = parser.parse_args()
     path = args.dir / "report.html"
-    text = page(Results(args.dir), Log(args.dir / "run.log"), args)
+    if series.is_series(args.dir):
+        text = page_of_series(args.dir)
+    else:
+        text = page(Results(args.dir), Log(args.dir / "run.log"), args)
     with outside.new_file(path) as made:
         made.write_text(text, encoding="utf-8")
     outside.say(path)

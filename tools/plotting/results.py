@@ -128,7 +128,7 @@ class Results(meniscus.Run):
         """(time, value, tolerance) of what the scene expects of a column at given times."""
         end = self.input["time"]["end"]
         for name, expected in self.input.get("expect", {}).items():
-            if expected.get("of", name) != column or expected["reduce"] != "at":
+            if expected.get("of", name) != column or expected["reduce"] != "at" or "value" not in expected:
                 continue
             relative = expected.get("within_relative", 0) * abs(expected["value"])
             tolerance = max(expected.get("within", 0), relative)

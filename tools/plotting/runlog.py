@@ -14,7 +14,7 @@ class Log:
     """run.log: what was said, by kind. A run that was continued says more than once how it begins."""
 
     LINE = re.compile(r"^\S+Z (info|warning|error): (.*)$")
-    EXPECTED = re.compile(r"^(\S+) +(\S+) +(\S+) +(\S+)  (met|MISSED|not reached)$")
+    EXPECTED = re.compile(r"^(\S+) +(\S+) +(\S+) +(\S+)  (met|MISSED|not reached|reported)$")
 
     def __init__(self, path):
         said = []

@@ -11,9 +11,10 @@ namespace meniscus {
 
 struct Wall;
 
-/// A number of cells times k, rounded; an even number stays even, as some shapes ask.
-inline int refined(int cells, Real k) {
-  const int multiple = cells % 2 == 0 ? 2 : 1;
+/// A number of cells times k, rounded; a multiple of 2 stays one, as some shapes ask, and one
+/// around a ring that is a multiple of 4, since its half may have to be even.
+inline int refined(int cells, Real k, bool is_around = false) {
+  const int multiple = is_around && cells % 4 == 0 ? 4 : cells % 2 == 0 ? 2 : 1;
   return std::max(multiple, multiple * static_cast<int>(std::lround(k * cells / multiple)));
 }
 
@@ -28,7 +29,10 @@ bool refine(S& shape, Real k) {
   };
   if constexpr (requires { shape.core; }) take(shape.core);
   if constexpr (requires { shape.rings; }) take(shape.rings);
-  if constexpr (requires { shape.around; }) take(shape.around);
+  if constexpr (requires { shape.around; }) {
+    shape.around = refined(shape.around, k, true);
+    known = true;
+  }
   if constexpr (requires { shape.layers; }) {
     if constexpr (std::is_base_of_v<Wall, S>)
       shape.layers = std::max(3, static_cast<int>(std::lround(k * (shape.layers - 1))) + 1);
