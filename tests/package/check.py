@@ -44,7 +44,7 @@ def main():
 
         program = installed / "bin/meniscus"
         for shipped in ("man/man1/meniscus.1", "bash-completion/completions/meniscus",
-                        "meniscus/meniscus.py", "meniscus/plotting/plot.py", "meniscus/inputs/guide/contact.md"):  # fmt: skip
+                        "meniscus/python/meniscus/results.py", "meniscus/plotting/plot.py", "meniscus/inputs/guide/contact.md"):  # fmt: skip
             if not (installed / "share" / shipped).stat().st_size:
                 sys.exit(f"share/{shipped} is empty")
         run(program, "run", SCENE, "--output", folder / "out", "--quiet")
