@@ -34,6 +34,7 @@ LAYERS = {
     "features": "numbers parallel input state kernel body physics solve measure remap scene",
     "run": "numbers parallel input state kernel body physics solve measure remap scene io",
     "study": "numbers parallel input state kernel body physics solve measure remap scene run",
+    "python": "run",
     "app": "numbers parallel input state kernel body physics solve measure remap scene run io study",
 }
 MAY_INCLUDE = {layer: others.split() for layer, others in LAYERS.items()}
@@ -52,6 +53,7 @@ CONFINED = {
     "OpenSSL": (r"openssl/", None),
     "HDF5": (r"hdf5|H5", "src/io/hdf5*"),
     "MPI": (r"mpi\.h", "src/parallel/mpi/*"),
+    "pybind11": (r"pybind11/", "src/python/module.cpp"),
     "PETSc": (r"petsc", "src/parallel/mpi/*"),
 }
 

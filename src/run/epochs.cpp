@@ -4,6 +4,7 @@
 
 #include "body/grid/ordering.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/scene/assembly.hpp"
 #include "run/initial_state.hpp"
 
 #include <fmt/core.h>
@@ -100,6 +101,23 @@ void Epochs<D>::restore(const Snapshot& state) {
                                     [](const Body<D>& body) { return !body.reference; });
   if (!in_first || !references.empty()) begin(build(plan_, references));
   simulation_->restore(state);
+}
+
+template <int D>
+void Epochs<D>::add(std::unique_ptr<const Load<D>> load) {
+  auto& terms = scene_->system.terms;
+  const std::size_t terms_before = terms.size();
+  Assembly<D> assembly(*scene_, false);
+  try {
+    load->build(assembly);
+    auto simulation = std::make_unique<Simulation<D>>(*scene_);
+    simulation->begin_with_new_terms(simulation_->snapshot());
+    simulation_ = std::move(simulation);
+  } catch (...) {
+    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(terms_before), terms.end());
+    throw;
+  }
+  plan_.loads.push_back(std::move(load));
 }
 
 template <int D>

@@ -44,6 +44,12 @@ class Epochs {
   /// forces cannot be computed. The old epoch then continues.
   void new_epoch(const Nodes& nodes);
 
+  /// Adds a load from the present state on, in this epoch and in later ones. Its force terms come
+  /// after all others. References to the simulation become invalid. Throws what building the load,
+  /// Simulation and Simulation::begin_with_new_terms() throw; the epoch then continues without the
+  /// load.
+  void add(std::unique_ptr<const Load<D>> load);
+
   /// Continues from a state of any epoch of this scene.
   void restore(const Snapshot& state);
 

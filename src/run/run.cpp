@@ -7,6 +7,7 @@
 #include "io/checkpoint.hpp"
 #include "meniscus/error.hpp"
 #include "run/epochs.hpp"
+#include "run/particle_force.hpp"
 
 #include <fmt/core.h>
 
@@ -22,13 +23,18 @@ struct Run::Base {
   virtual std::int64_t step() const = 0;
   virtual bool finished() const = 0;
   virtual void advance() = 0;
+  virtual void stop_when(std::function<bool()> asked) = 0;
+  virtual void add_force(const std::string& body, ForceFunction force) = 0;
   virtual std::vector<std::string> bodies() const = 0;
   virtual std::vector<std::string> measures() const = 0;
   virtual std::vector<std::string> fields(const std::string& body) const = 0;
   virtual double measure(const std::string& name) const = 0;
+  virtual std::string unit(const std::string& measure) const = 0;
   virtual Field field(const std::string& body, const std::string& name) const = 0;
+  virtual std::map<std::string, double> energies() const = 0;
+  virtual Snapshot snapshot() = 0;
+  virtual void restore(const Snapshot& state) = 0;
   virtual void save(const std::string& directory) = 0;
-  virtual void restore(const std::string& directory) = 0;
 };
 
 namespace {
@@ -61,7 +67,30 @@ class RunIn final : public Run::Base {
   double time() const override { return now().time; }
   std::int64_t step() const override { return now().step; }
   bool finished() const override { return epochs_.simulation().finished(); }
-  void advance() override { epochs_.advance(); }
+  void advance() override {
+    if (failed_)
+      throw SolveError(fmt::format(
+          "the run cannot go on after its failure at step {}; restore a state or begin a new run",
+          step() + 1));
+    if (asked_ && asked_()) throw Interrupted();
+    failed_ = true;
+    try {
+      if (epochs_.advance().new_epoch) epochs_.simulation().stop_when(asked_);
+    } catch (const Interrupted&) {
+      failed_ = false;
+      throw;
+    }
+    failed_ = false;
+  }
+  void stop_when(std::function<bool()> asked) override {
+    asked_ = std::move(asked);
+    epochs_.simulation().stop_when(asked_);
+  }
+  void add_force(const std::string& body, ForceFunction force) override {
+    find("body", body, bodies());
+    epochs_.add(particle_force<D>(body, std::move(force)));
+    epochs_.simulation().stop_when(asked_);
+  }
 
   std::vector<std::string> bodies() const override { return names_of(scene().system.bodies); }
   std::vector<std::string> measures() const override { return names_of(scene().measures); }
@@ -77,6 +106,10 @@ class RunIn final : public Run::Base {
 
   double measure(const std::string& name) const override {
     return scene().measures[find("measure", name, measures())].compute(now().motion());
+  }
+
+  std::string unit(const std::string& name) const override {
+    return scene().units.symbol(scene().measures[find("measure", name, measures())].dimension);
   }
 
   Field field(const std::string& body_name, const std::string& name) const override {
@@ -108,10 +141,24 @@ class RunIn final : public Run::Base {
   void save(const std::string& directory) override {
     const RunDirectory folder(directory, ExistingRun::keep);
     CheckpointWriter(folder, provenance("a program with the library", scene().complete))
-        .write(step(), time(), epochs_.simulation().snapshot());
+        .write(step(), time(), snapshot());
   }
-  void restore(const std::string& directory) override {
-    epochs_.restore(read_checkpoint(directory).checkpoint.state);
+  Snapshot snapshot() override { return epochs_.simulation().snapshot(); }
+  void restore(const Snapshot& state) override {
+    failed_ = true;
+    epochs_.restore(state);
+    epochs_.simulation().stop_when(asked_);
+    failed_ = false;
+  }
+
+  std::map<std::string, double> energies() const override {
+    const Ledger ledger = take_ledger(scene().system, now());
+    std::map<std::string, double> all = ledger.stored;
+    all["kinetic"] = ledger.kinetic;
+    all["dissipated"] = ledger.dissipated;
+    all["external_work"] = ledger.external_work;
+    all["remapped"] = ledger.remapped;
+    return all;
   }
 
  private:
@@ -129,6 +176,8 @@ class RunIn final : public Run::Base {
   const State& now() const { return epochs_.simulation().state(); }
 
   Epochs<D> epochs_;
+  std::function<bool()> asked_;
+  bool failed_ = false;  // a step or restore() has left an incomplete state
 };
 
 std::unique_ptr<Run::Base> begin(const SceneInput& input) {
@@ -137,6 +186,10 @@ std::unique_ptr<Run::Base> begin(const SceneInput& input) {
 }
 
 }  // namespace
+
+std::uint64_t SavedState::hash() const {
+  return snapshot_->hash();
+}
 
 Run::Run(std::unique_ptr<Base> base) : base_(std::move(base)) {}
 Run::Run(Run&&) noexcept = default;
@@ -166,7 +219,14 @@ void Run::advance() {
   base_->advance();
 }
 void Run::advance_to(double time) {
-  while (!finished() && this->time() < time) advance();
+  constexpr double of_rounding = 1e-9;  // eight steps of 0.1 s come to 0.7999999999999999 s
+  while (!finished() && this->time() < time * (1 - of_rounding)) advance();
+}
+void Run::stop_when(std::function<bool()> asked) {
+  base_->stop_when(std::move(asked));
+}
+void Run::add_force(const std::string& body, ForceFunction force) {
+  base_->add_force(body, std::move(force));
 }
 std::vector<std::string> Run::bodies() const {
   return base_->bodies();
@@ -180,14 +240,26 @@ std::vector<std::string> Run::fields(const std::string& body) const {
 double Run::measure(const std::string& name) const {
   return base_->measure(name);
 }
+std::string Run::unit(const std::string& measure) const {
+  return base_->unit(measure);
+}
 Field Run::field(const std::string& body, const std::string& name) const {
   return base_->field(body, name);
+}
+std::map<std::string, double> Run::energies() const {
+  return base_->energies();
+}
+SavedState Run::snapshot() {
+  return SavedState(std::make_shared<const Snapshot>(base_->snapshot()));
+}
+void Run::restore(const SavedState& state) {
+  base_->restore(state.snapshot());
 }
 void Run::save(const std::string& directory) {
   base_->save(directory);
 }
 void Run::restore(const std::string& directory) {
-  base_->restore(directory);
+  base_->restore(read_checkpoint(directory).checkpoint.state);
 }
 
 }  // namespace meniscus

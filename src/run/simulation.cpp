@@ -163,6 +163,14 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
 }
 
 template <int D>
+void Simulation<D>::begin_with_new_terms(const Snapshot& before) {
+  restore(before);
+  start(scene_.system, state_);
+  if (!stepper_->chooses_step()) controller_->begin(state_);
+  stepper_->begin(state_);
+}
+
+template <int D>
 bool Simulation<D>::finished() const {
   return state_.time >= scene_.time.end || stepper_->arrived() || stepper_->blocked();
 }

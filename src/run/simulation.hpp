@@ -33,6 +33,8 @@ class Simulation {
   /// books and the audit are taken from `before`. The change of energy due to the remap is booked
   /// as `remapped`. Throws like begin().
   void begin_after(Simulation& before, State state);
+  /// Continues a state of this scene from before force terms were added to it. Throws like begin().
+  void begin_with_new_terms(const Snapshot& before);
   /// Makes one step towards the end of the scene. A rejected step is undone and halved, several
   /// times if needed. Throws StepError; the state then has the positions before the step, but is
   /// incomplete.

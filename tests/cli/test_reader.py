@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The reader tools/meniscus.py, and probes: fields at points and along lines.
+"""The reader of the package meniscus, and probes: fields at points and along lines.
 Usage: test_reader.py PROGRAM"""
 import re
 import sys
 import tomllib
 from pathlib import Path
 
+import meshio
 import numpy as np
 
 import program
@@ -14,7 +15,7 @@ from program import BLOCK, REMAPPED_DROP, SHEET, ProgramTest, with_output
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
-sys.path.append(str(ROOT / "tools"))
+sys.path.insert(0, str(ROOT / "src/python"))
 import meniscus  # noqa: E402  pylint: disable=wrong-import-position
 
 PROBES = """
@@ -34,7 +35,7 @@ points = 5
 
 class Reader(ProgramTest):
     def open(self, output):
-        run = meniscus.Run(self.directory / output)
+        run = meniscus.open(self.directory / output)
         self.addCleanup(run.close)
         return run
 
@@ -71,7 +72,7 @@ class Reader(ProgramTest):
             run.field(0, "presure", "sheet")
         self.assertEqual(run.points(0, "sheet").shape, (66, 2))
         with self.assertRaises(OSError):
-            meniscus.Run(self.directory / "nowhere")
+            meniscus.open(self.directory / "nowhere")
 
     def test_a_row_that_is_being_written_is_left_out(self):
         self.call("run", self.scene(SHEET), "--output", "out")
@@ -80,21 +81,61 @@ class Reader(ProgramTest):
             file.write("0.1,3")
         np.testing.assert_array_equal(self.open("out").history["time"], before)
 
-    def test_the_line_for_pandas(self):
-        """README shows how pandas reads a history. Without pandas, its input is tested."""
-        readme = (ROOT / "README.md").read_text(encoding="utf-8")
-        line = re.search(r"^.*pandas\.read_csv.*$", readme, re.M).group()
-        self.assertIn("skiprows=[1]", line)
-        self.assertIn('{"# time": "time"}', line)
+    def test_frames(self):
+        self.call("run", self.scene(with_output(BLOCK, 'fields = ["velocity", "J", "von_mises", "F"]')), "--output", "out")
+        results = self.open("out")
+        frame = results.frame(-1)
+        self.assertEqual((frame.time, frame.step), (results.times[-1], results.steps[-1]))
+        self.assertEqual(frame.number, len(results.frames) - 1)
+        np.testing.assert_array_equal(frame.points("block"), results.points(-1, "block"))
+        np.testing.assert_array_equal(frame.field("J", "block"), results.field(-1, "J", "block"))
+        with self.assertRaisesRegex(IndexError, f"there is no frame 99; there are {len(results.frames)}"):
+            results.frame(99)
+        self.assertIn("<td>block (125 particles)</td>", results._repr_html_())  # pylint: disable=protected-access
+
+    def test_frames_for_other_programs(self):
+        for text, kind, name in ((BLOCK, "hexahedron", "block"), (SHEET, "quad", "sheet")):
+            self.call("run", self.scene(text), "--output", name, "--until", "0.04")
+            results = self.open(name)
+            frame = results.frame(0)
+            frame.to_vtk(self.directory / "frame.vtu")
+            mesh = meshio.read(self.directory / "frame.vtu")
+            body = results.body(name)
+            np.testing.assert_array_equal(mesh.points[:, : results.dimension], frame.points(name))
+            np.testing.assert_array_equal(mesh.cells_dict[kind], body.cells)
+            self.assertEqual(set(mesh.point_data), set(results.fields) - {"position"})
+            # The cells have the volume of the body.
+            corners = mesh.points[mesh.cells_dict[kind]]
+            edges = corners[:, [1, 3] if kind == "quad" else [1, 3, 4]] - corners[:, :1]
+            volumes = np.linalg.det(edges[:, :, : results.dimension])
+            self.assertAlmostEqual(volumes.sum(), body.volume.sum(), delta=1e-6)
+
+    def test_pictures(self):
+        for text, name in ((BLOCK, "block"), (SHEET, "sheet")):
+            self.call("run", self.scene(with_output(text, f'measures = ["{name}.centre_x"]')), "--output", name,
+                      "--until", "0.02")  # fmt: skip
+            results = self.open(name)
+            for figure, axes in ((results.plot(), 1), (results.plot("time", "step"), 2), (results.frame(-1).plot(), 2),
+                                 (results.frame(0).plot("velocity", name), 2)):  # fmt: skip
+                figure.savefig(self.directory / "figure.png")
+                self.assertEqual(len(figure.axes), axes)
+            with self.assertRaisesRegex(ValueError, "the history has no column 'tiem'; it has time, step"):
+                results.plot("tiem")
+
+    def test_history_in_pandas(self):
         self.call("run", self.scene(SHEET), "--output", "out")
-        first, second, *_ = (self.directory / "out/history.csv").read_text().splitlines()
-        self.assertTrue(first.startswith("# time,step,") and second.startswith("# s,1,"))
+        results = self.open("out")
+        frame = results.history_frame()
+        np.testing.assert_array_equal(frame.index, results.history["time"])
+        for name in frame:
+            np.testing.assert_array_equal(frame[name], results.history[name])
+        self.assertEqual(len(frame.columns), len(results.history) - 1)
 
 
 class Probes(ProgramTest):
     def test_points_and_lines(self):
         self.call("run", self.scene(BLOCK + PROBES), "--output", "out")
-        run = meniscus.Run(self.directory / "out")
+        run = meniscus.open(self.directory / "out")
         self.addCleanup(run.close)
         last = run.body("block")
         corner = np.argmin(np.linalg.norm(last.X - 0.5, axis=1))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The scripts of tools/ say how they are called, do nothing where they do not know an argument, and run
-nothing that a file contains."""
+nothing that a file contains; neither does the package of src/python."""
 import ast
 import os
 import subprocess
@@ -19,7 +19,7 @@ ALLOWED = {("re", "compile")}
 
 
 def python_sources():
-    for path in sorted(TOOLS.rglob("*")):
+    for path in sorted([*TOOLS.rglob("*"), *(TOOLS.parent / "src/python/meniscus").iterdir()]):
         if path.is_file() and (path.suffix == ".py" or path.read_bytes().startswith(b"#!/usr/bin/python3")):
             yield path
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 
 namespace meniscus::test_run {
 namespace {
@@ -83,6 +84,73 @@ TEST(Run, NamesWhatIsWrong) {
             std::string::npos);
   EXPECT_NE(message([&] { run.field("dorp", "J"); }).find("allowed is drop"), std::string::npos);
   EXPECT_NE(message([&] { run.field("drop", "K"); }).find("position"), std::string::npos);
+}
+
+TEST(Run, SnapshotsContinueBitForBit) {
+  meniscus::Run run = meniscus::Run::from_file(drop), other = meniscus::Run::from_file(drop);
+  run.advance_to(0.02);
+  const SavedState middle = run.snapshot();
+  run.advance_to(0.03);
+  other.restore(middle);
+  EXPECT_EQ(other.snapshot().hash(), middle.hash());
+  other.advance_to(0.03);
+  EXPECT_EQ(other.snapshot().hash(), run.snapshot().hash());
+  EXPECT_NE(run.snapshot().hash(), middle.hash());
+}
+
+TEST(Run, StopsBetweenSteps) {
+  meniscus::Run run = meniscus::Run::from_file(drop), same = meniscus::Run::from_file(drop);
+  int asked = 0;
+  run.stop_when([&] { return ++asked == 4; });
+  EXPECT_THROW(run.advance_to(1), Interrupted);
+  EXPECT_EQ(run.step(), 3);
+  while (same.step() < 5) same.advance();
+  while (run.step() < 5) run.advance();
+  EXPECT_EQ(run.snapshot().hash(), same.snapshot().hash());
+}
+
+/// The force m_A g at each particle A.
+ForceFunction weight_of(const meniscus::Run& run, double g) {
+  return
+      [mass = run.field("drop", "mass").values, g](
+          double, std::span<const double> x, std::span<const double> v, std::span<double> force) {
+        EXPECT_EQ(x.size(), 2 * mass.size());
+        EXPECT_EQ(v.size(), 2 * mass.size());
+        for (std::size_t A = 0; A < mass.size(); ++A) force[2 * A] = mass[A] * g;
+      };
+}
+
+TEST(Run, ForcesMoveTheCentreAndDoWork) {
+  meniscus::Run run = meniscus::Run::from_file(drop);
+  const double begin = run.measure("drop.centre_x");
+  run.add_force("drop", weight_of(run, 3));
+  run.advance_to(0.04);
+  const double t = run.time(), moved = run.measure("drop.centre_x") - begin;
+  EXPECT_NEAR(moved / (3 * t * t / 2), 1, 1e-10);
+  double mass = 0;
+  for (const double m : run.field("drop", "mass").values) mass += m;
+  EXPECT_NEAR(run.energies().at("external_work") / (mass * 3 * moved), 1, 0.02);
+  EXPECT_EQ(run.unit("drop.centre_x"), "m");
+  EXPECT_THROW_WITH(run.add_force("dorp", weight_of(run, 1)), InputError, "allowed is drop");
+}
+
+TEST(Run, AFailedForceEndsTheStep) {
+  meniscus::Run run = meniscus::Run::from_file(drop);
+  std::string wrong;
+  run.add_force("drop", [&](double, std::span<const double>, std::span<const double>,
+                            std::span<double> force) {
+    if (wrong == "error") throw SolveError("the field is not known here");
+    if (wrong == "nan") force[7] = std::numeric_limits<double>::quiet_NaN();
+  });
+  const SavedState begin = run.snapshot();
+  run.advance();
+  wrong = "error";
+  EXPECT_THROW_WITH(run.advance(), SolveError,
+                    "the field is not known here (force function on 'drop')");
+  EXPECT_THROW_WITH(run.advance(), SolveError, "cannot go on after its failure at step 2");
+  run.restore(begin);
+  wrong = "nan";
+  EXPECT_THROW_WITH(run.advance(), SolveError, "body 'drop', particle 3 at");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ import outside
 import plot
 import series
 import style
-from results import Results, meniscus
+from results import Results, reader
 from runlog import Log
 
 LOOKS = """
@@ -102,7 +102,7 @@ def figures(pictures):
 
 
 def provenance(run):
-    attributes = meniscus.item(run.files[-1], "meta").attrs
+    attributes = reader.item(run.files[-1], "meta").attrs
     texts = {}
     for name in sorted(attributes):
         value = attributes[name]
@@ -127,7 +127,7 @@ def page(run, log, args):
         "<h2>What was decided</h2>",
         items(log.decided),
         "<h2>Input</h2><p>With all defaults; itself a scene.</p>",
-        f"<pre>{escaped(meniscus.item(run.files[-1], 'meta/input')[()].decode())}</pre>",
+        f"<pre>{escaped(reader.item(run.files[-1], 'meta/input')[()].decode())}</pre>",
         "<h2>Provenance</h2>",
         provenance(run),
         items(log.calls) if len(log.calls) > 1 else "",

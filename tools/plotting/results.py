@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What pictures need of a run besides what tools/meniscus.py reads."""
+"""What pictures need of results besides what the package meniscus reads."""
 
 import functools
-import pathlib
-import sys
 
 import h5py
 import numpy as np
 
+import package  # noqa: F401  pylint: disable=unused-import
 import style
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import meniscus  # noqa: E402  pylint: disable=wrong-import-position
+from meniscus import results as reader  # isort: skip
 
 
 class Section:
@@ -33,7 +31,7 @@ class Section:
         return len(self.half)
 
 
-class Results(meniscus.Run):
+class Results(reader.Results):
     """A run, its frames worth showing and what its scene expects. Bodies of revolution are shown by their
     whole section."""
 
@@ -80,25 +78,25 @@ class Results(meniscus.Run):
         if moved is None:
             return None
         file, step = moved
-        reference = meniscus.item(file, "reference")
-        partners = [meniscus.item(reference, name) for name in reference]
+        reference = reader.item(file, "reference")
+        partners = [reader.item(reference, name) for name in reference]
         partner = next(partner for partner in partners if partner.attrs["id"] == number)
-        position = meniscus.item(step, "position")[int(partner.attrs["first_particle"])]
-        return (position - meniscus.item(partner, "X")[0])[: self.dimension]
+        position = reader.item(step, "position")[int(partner.attrs["first_particle"])]
+        return (position - reader.item(partner, "X")[0])[: self.dimension]
 
     @functools.cached_property
     def partner_steps(self):
         """(file, frame) of partners.h5 by the number of the step; none if no partner was written."""
         found = {}
         try:
-            files = meniscus.result_series(self.folder, "partners")
+            files = reader.result_series(self.folder, "partners")
         except OSError:
             return found
         for path in files:
             file = h5py.File(path, "r")
-            steps = meniscus.item(file, "steps")
+            steps = reader.item(file, "steps")
             for k in steps:
-                frame = meniscus.item(steps, k)
+                frame = reader.item(steps, k)
                 found[int(frame.attrs["step"])] = (file, frame)
         return found
 

@@ -2,12 +2,11 @@
 """What a run has said: its run.log."""
 
 import collections
-import pathlib
 import re
-import sys
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import meniscus  # noqa: E402  pylint: disable=wrong-import-position
+import package  # noqa: F401  pylint: disable=unused-import
+
+from meniscus import results as reader  # isort: skip
 
 
 class Log:
@@ -18,7 +17,7 @@ class Log:
 
     def __init__(self, path):
         said = []
-        for line in meniscus.text_of(path).splitlines():
+        for line in reader.text_of(path).splitlines():
             if match := self.LINE.match(line):
                 said.append(match.groups())
             elif said:  # a message of several lines

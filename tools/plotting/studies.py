@@ -13,7 +13,7 @@ import matplotlib.ticker
 import numpy as np
 
 import style
-from results import meniscus
+from results import reader
 
 COLUMNS = 4
 MARKERS = "osD^vPXd"
@@ -25,7 +25,7 @@ class Study:
 
     def __init__(self, folder):
         path = folder / "study.json"
-        content = json.loads(meniscus.text_of(path))
+        content = json.loads(reader.text_of(path))
         self.h_meaning = content["h"]
         self.panels = {}  # panel -> line -> measurements, coarse to fine
         for m in content["measurements"]:

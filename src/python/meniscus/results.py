@@ -1,21 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads runs of Meniscus, with numpy and h5py alone.
+"""Reads results, the directories that `meniscus run` writes, with numpy and h5py alone.
 
-    import sys; sys.path.append("tools")          # or a copy of this file beside the script
-    import meniscus
-
-    run = meniscus.Run("results/ellipsoid_drop")
-    run.times                                     # of the frames
-    run.points(-1, "drop")                        # [particle, i] in the last frame
-    run.field(-1, "pressure", "drop")             # [particle] or [particle, component]
-    run.body("drop").cells                        # [cell, corner] in the order of VTK
-    run.history["drop.aspect"]                    # over run.history["time"]
-    pandas.DataFrame(run.history)                 # if you like
+    results = meniscus.open("results/ellipsoid_drop")
+    results.times                                 # of the frames
+    results.points(-1, "drop")                    # [particle, i] in the last frame
+    results.field(-1, "pressure", "drop")         # [particle] or [particle, component]
+    results.body("drop").cells                    # [cell, corner] in the order of VTK
+    results.history["drop.aspect"]                # over results.history["time"]
+    results.frame(-1).to_vtk("last.vtu")
 
 A run whose bodies were remapped has files run.h5, run.1.h5, ...: its frames follow each other here,
-and `body(name, frame)` is the body in the reference of that frame. It may still be going on: what is
-there when it is opened is read.
+and `body(name, frame)` is the body in the reference of that frame. A run may still be going on: the
+frames that are there when it is opened are read.
 """
+
+from __future__ import annotations
 
 import csv
 import functools
@@ -23,10 +22,19 @@ import os
 import pathlib
 import stat
 import tomllib
+from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
+from numpy.typing import NDArray
 
+from . import pictures
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[Any]
+Path = str | os.PathLike[str]
 
 LARGEST_TEXT = 1 << 30  # bytes of a text file
 EXPANSION = 1100  # no array takes more than that many times its bytes in the file: deflate gives 1032
@@ -109,10 +117,57 @@ class Body:
         return (self.volume.sum() / len(self.volume)) ** (1 / self.dimension)
 
 
-class Run:
-    """A run directory. Raises OSError or ValueError, with the reason, if it cannot be read."""
+class Frame:
+    """The state of all bodies at one time of the results."""
 
-    def __init__(self, folder):
+    def __init__(self, results, number):
+        count = len(results.frames)
+        if not -count <= number < count:
+            raise IndexError(f"there is no frame {number}; there are {count}, from 0 to {count - 1}")
+        self.results = results
+        self.number = number % count
+        self.time = float(results.times[number])
+        self.step = int(results.steps[number])
+
+    def field(self, name: str, body: Body | str) -> Array:
+        """Values of a field at the particles of a body, [particle] or [particle, component]."""
+        return self.results.field(self.number, name, body)
+
+    def points(self, body: Body | str) -> Array:
+        """Positions of the particles of a body, [particle, i]."""
+        return self.results.points(self.number, body)
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh of all bodies: particles, cells, and all fields of the frame. Needs meshio."""
+        import meshio  # pylint: disable=import-outside-toplevel
+
+        results, bodies = self.results, self.results.epochs[self.number]
+        kind = "hexahedron" if results.dimension == 3 else "quad"
+        cells = np.concatenate([body.cells.astype(np.int64) + body.particles.start for body in bodies])
+        values = {name: item(results.frames[self.number], name)[()] for name in results.fields}
+        points = values.pop("position")
+        if points.shape[1] == 2:
+            points = np.pad(points, [(0, 0), (0, 1)])
+        return meshio.Mesh(points, [(kind, cells)], point_data=values)
+
+    def to_vtk(self, path: Path) -> None:
+        """Writes the frame as a file that ParaView and VisIt open, such as last.vtu. Needs meshio."""
+        self.to_meshio().write(path)
+
+    def plot(self, field: str | None = None, body: str | None = None) -> Figure:
+        """A matplotlib figure of the bodies (or of one body) with their cells, in 3D their surfaces, coloured
+        by a field; by default the first scalar one. Vectors and tensors are shown by their size."""
+        return pictures.of_frame(self, field, body)
+
+    def __repr__(self):
+        return f"<frame {self.number}: step {self.step}, t = {self.time:g} {self.results.time_unit}>"
+
+
+class Results:
+    """The results of a run, by their directory. Raises OSError or ValueError, with the reason, if they
+    cannot be read."""
+
+    def __init__(self, folder: Path):
         self.folder = pathlib.Path(folder)
         self.files = [h5py.File(path, "r") for path in result_series(self.folder)]
         self.input = tomllib.loads(item(self.files[0], "meta/input")[()].decode())  # complete, in its units
@@ -142,59 +197,89 @@ class Run:
         self.bodies = self.epochs[0]
         self.history, self.units = read_history(self.folder / "history.csv")
 
-    def __enter__(self):
+    def __enter__(self) -> Results:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def close(self):
+    def close(self) -> None:
         for file in self.files:
             file.close()
 
     @property
-    def length_unit(self):
+    def length_unit(self) -> str:
         return self.unit_of("position")
 
     @property
-    def time_unit(self):
+    def time_unit(self) -> str:
         return self.units["time"]
 
     @functools.cached_property
-    def fields(self):
+    def fields(self) -> list[str]:
         """Names of the fields of all frames."""
         frame = self.frames[0]
         return [name for name in frame if frame.get(name, getclass=True) is h5py.Dataset]
 
-    def unit_of(self, field):
+    def unit_of(self, field: str) -> str:
         return self._of_frame(0, field).attrs["units"].decode()
 
-    def body(self, name, frame=0):
+    def body(self, name: str, frame: int = 0) -> Body:
         """The body of that name in the reference of that frame."""
         for body in self.epochs[frame]:
             if body.name == name:
                 return body
         raise ValueError(f"there is no body '{name}'; there are {', '.join(b.name for b in self.bodies)}")
 
-    def field(self, frame, name, body):
+    def field(self, frame: int, name: str, body: Body | str) -> Array:
         """Values of a field at the particles of a body (or of the body of that name), in the frame of
         that number."""
         name_of_body = body if isinstance(body, str) else body.name
         return self._of_frame(frame, name)[self.body(name_of_body, frame).particles]
 
-    def points(self, frame, body):
+    def points(self, frame: int, body: Body | str) -> Array:
         """Places [particle, i] of the particles of a body."""
         return self.field(frame, "position", body)[:, : self.dimension]
 
-    def line(self, name):
+    def line(self, name: str) -> tuple[dict[str, Array], dict[str, str]]:
         """What the [[probe]] of that name has read along its line at all frames, one point after the
         other: columns by name, and their units."""
         return read_history(self.folder / f"probe-{name}.csv")
+
+    def frame(self, number: int) -> Frame:
+        """The frame of that number; -1 is the last one."""
+        return Frame(self, number)
+
+    def history_frame(self) -> Any:
+        """The history as a pandas.DataFrame, with the time as its index. Needs pandas."""
+        import pandas  # pylint: disable=import-outside-toplevel
+
+        return pandas.DataFrame(self.history).set_index("time")
+
+    def plot(self, *names: str) -> Figure:
+        """A matplotlib figure of columns of the history over time; by default all measures of bodies and
+        contacts, those with a dot in their names."""
+        return pictures.of_history(self, names)
+
+    def __repr__(self):
+        return f"<results in {self.folder}: {len(self.frames)} frames to t = {self.times[-1]:g} {self.time_unit}>"
+
+    def _repr_html_(self):
+        rows = [("directory", self.folder), ("title", self.input.get("title", "")),
+                ("bodies", ", ".join(f"{body.name} ({len(body)} particles)" for body in self.bodies)),
+                ("frames", f"{len(self.frames)}, t = {self.times[0]:g} to {self.times[-1]:g} {self.time_unit}"),
+                ("fields", ", ".join(self.fields))]  # fmt: skip
+        return pictures.html_table(rows)
 
     def _of_frame(self, frame, name):
         if name not in self.fields:
             raise ValueError(f"there is no field '{name}'; there are {', '.join(self.fields)}")
         return item(self.frames[frame], name)
+
+
+def open_results(folder: Path) -> Results:
+    """The results in the directory of a run."""
+    return Results(folder)
 
 
 def result_series(folder, name="run"):
