@@ -136,7 +136,7 @@ def page(run, log, args):
 
 
 def page_of_series(folder):
-    title = tomllib.loads(meniscus.text_of(folder / "scene.toml")).get("title") or folder.resolve().name
+    title = tomllib.loads(reader.text_of(folder / "scene.toml")).get("title") or folder.resolve().name
     parts = [f"<h1>{escaped(title)}</h1>"]
     for name, (heading, *rows) in series.tables(folder):
         parts += [f"<h2>{escaped(name)}</h2>", table(rows, heading, numbers=range(1, len(heading)))]

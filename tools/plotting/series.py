@@ -11,7 +11,7 @@ import numpy as np
 
 import studies
 import style
-from results import meniscus
+from results import reader
 
 REFINE = "refine "
 MOST_PANELS, MOST_LINES = 12, 6
@@ -23,7 +23,7 @@ def is_series(folder):
 
 def table_in(path):
     """The lines of a CSV file, of which all are as long as the first. Raises OSError or ValueError."""
-    lines = list(csv.reader(io.StringIO(meniscus.text_of(path))))
+    lines = list(csv.reader(io.StringIO(reader.text_of(path))))
     if len(lines) < 2 or any(len(line) != len(lines[0]) for line in lines):
         raise ValueError(f"{path} is no table with a heading and rows of its length")
     return lines
