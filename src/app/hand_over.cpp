@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands that are programs of their own: the studies and the Python scripts that draw pictures.
+// Commands that are programs of their own: the studies, and the Python scripts that draw and fit.
 #include "app/hand_over.hpp"
 
 #include "app/documents.hpp"
@@ -44,8 +44,9 @@ void hand_over_to_python(const std::string& name, char** argv) {
   for (char** word = argv + 2; *word != nullptr; ++word) words.push_back(*word);
   words.push_back(nullptr);
   setenv("MENISCUS_COMMAND", ("meniscus " + name).c_str(), 1);
+  setenv("MENISCUS_PROGRAM", (own_directory() / "meniscus").c_str(), 1);
   execv(python, words.data());
-  throw FileError(fmt::format("'{}' is not there, which draws pictures", python));
+  throw FileError(fmt::format("'{}' is not there, which draws and fits", python));
 }
 
 }  // namespace meniscus

@@ -172,8 +172,8 @@ struct CommandLine {
   RevolveRequest revolve_request;
   ConvergeRequest converge_request;
   std::string file, topic;
-  CLI::App *run, *check, *keys, *info, *study, *plot, *report, *help, *begin, *sweep, *converge,
-      *revolve, *completion, *manual, *version;
+  CLI::App *run, *check, *keys, *info, *study, *plot, *report, *fit, *help, *begin, *sweep,
+      *converge, *revolve, *completion, *manual, *version;
 
   CommandLine() {
     app.require_subcommand(1);
@@ -193,6 +193,7 @@ struct CommandLine {
     study = add_other("study", "error, observed order, time and memory of a family of methods");
     plot = add_other("plot", "pictures or a movie of a run or study: meniscus plot DIR");
     report = add_other("report", "one page about a run: meniscus report DIR");
+    fit = add_other("fit", "parameters of scenes from measured data: meniscus fit FIT.toml");
     help = app.add_subcommand("help", "print a topic of the guide");
     help->add_option("TOPIC", topic, "contact, units, restart, ...; a list if not given");
     begin =
@@ -229,6 +230,7 @@ int execute(const CommandLine& line, char** argv) {
   if (line.study->parsed()) hand_over_to_studies(argv);
   if (line.plot->parsed()) hand_over_to_python("plot", argv);
   if (line.report->parsed()) hand_over_to_python("report", argv);
+  if (line.fit->parsed()) hand_over_to_python("fit", argv);
   if (line.keys->parsed()) print_reference(line.keys_request);
   if (line.info->parsed()) print_text(describe_file(line.file));
   if (line.version->parsed()) say("{}\n", version_text());

@@ -21,7 +21,7 @@ from program import BLOCK, DROP, SHEET, ProgramTest
 ROOT = Path(__file__).resolve().parents[2]
 TOPICS = sorted(path.stem for path in (ROOT / "inputs" / "guide").glob("*.md"))
 SCENES = sorted((ROOT / "inputs").glob("*.toml"))
-COMMANDS = ["run", "check", "keys", "info", "study", "plot", "report", "help", "new", "sweep", "converge", "revolve", "completion", "manual", "version"]
+COMMANDS = ["run", "check", "keys", "info", "study", "plot", "report", "fit", "help", "new", "sweep", "converge", "revolve", "completion", "manual", "version"]
 
 
 @unittest.skipUnless(platform.machine() == "x86_64" and shutil.which("objdump"), "reads the code of x86-64")

@@ -11,14 +11,17 @@
     results.history["drop.aspect"]                 # over results.history["time"]
     results.frame(-1).field("pressure", "drop")    # at the particles, in the last frame
 
+    meniscus.fit("fit.toml")["gamma"]              # parameters from measurements
+
 Reading results needs numpy and h5py only. meniscus.Run needs the extension module, which
 `tools/run --python` builds.
 """
 
 from .errors import Error, FileError, InputError, SolveError
+from .fitting import Fit, fit
 from .results import Results
 from .results import open_results as open  # pylint: disable=redefined-builtin
 from .run import Run
 from .scene import to_toml
 
-__all__ = ["Error", "FileError", "InputError", "Results", "Run", "SolveError", "open", "to_toml"]
+__all__ = ["Error", "FileError", "Fit", "InputError", "Results", "Run", "SolveError", "fit", "open", "to_toml"]
