@@ -100,8 +100,8 @@ class Run {
   std::string unit(const std::string& measure) const;
   Field field(const std::string& body, const std::string& name) const;
   /// The energies by name: "kinetic", the stored ones such as "strain" and "surface", and
-  /// "dissipated", "external_work" and "remapped" since the start. kinetic + stored + dissipated -
-  /// external_work - remapped is constant up to errors of the time steps.
+  /// "dissipated", "external_work" and "remapped" since the start; in 2D per depth. kinetic +
+  /// stored + dissipated - external_work - remapped is constant up to errors of the time steps.
   std::map<std::string, double> energies() const;
 
   /// Returns the present state. A run of the same scene continues from it bit for bit.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results that somebody else may have made to do harm, as tools/plot and tools/report meet them: each is
-drawn or refused by one sentence with exit code 5. Nothing is run, nothing is written outside of the
+"""Results that somebody else may have made to do harm, as tools/plot, tools/report and the package for Python
+meet them: each is drawn or refused by one sentence with exit code 5. Nothing is run, nothing is written outside of the
 folder or through a link, in little memory and time.
 Usage: hostile_results.py PROGRAM [N [SEED]]  (a few of the kinds; with N: all of them, and as many more
 results with several changes, chosen by a seed)"""
@@ -31,6 +31,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/plotting"))
 import outside  # noqa: E402
 import plot  # noqa: E402
 import report  # noqa: E402
+from results import reader  # noqa: E402
 
 MEMORY, SECONDS = 2 << 30, 40
 
@@ -233,6 +234,26 @@ def draw(work, arguments):
     return status, printed
 
 
+class Package:
+    """The functions of the package, called as if they were a script."""
+
+    __name__ = "package"
+
+    @staticmethod
+    def main():
+        results = reader.Results(sys.argv[1])
+        frame = results.frame(-1)
+        frame.to_meshio()
+        frame.plot()
+        results.plot("time")
+        print(results, frame, results._repr_html_())  # pylint: disable=protected-access
+
+
+PACKAGE = Package()
+# What the package meets in the short form, too.
+FOR_PACKAGE = ("256 TiB", "places of another file", "seven dimensions", "history in a pipe")
+
+
 class Results:
     """Damaged copies of runs, and the answers of the scripts."""
 
@@ -298,7 +319,7 @@ def combinations(results, count, seed):
                     pass  # an earlier change has removed the target of this one
 
         results.harm(f"{k} of seed {seed}: {names}, {about_folder}, {flips}", chosen.choice((2, 3)), change,
-                     FOLDER.get(about_folder), flips, [chosen.choice((plot, report))])
+                     FOLDER.get(about_folder), flips, [chosen.choice((plot, report, PACKAGE))])
 
 
 def main():
@@ -311,7 +332,8 @@ def main():
                 continue
             script = report if "report" in what or "log" in what else plot
             how = {"to_file": change} if what in FILE else {"to_folder": change}
-            results.harm(what, 2 + number % 2, scripts=[script], **how)
+            scripts = [script, PACKAGE] if count or what in FOR_PACKAGE else [script]
+            results.harm(what, 2 + number % 2, scripts=scripts, **how)
         combinations(results, count, seed)
         os.chdir("/")
         print(f"{results.count} results, {results.drawn} drawn, the slowest in {results.slowest:.1f} s")

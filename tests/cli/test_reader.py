@@ -82,7 +82,8 @@ class Reader(ProgramTest):
         np.testing.assert_array_equal(self.open("out").history["time"], before)
 
     def test_frames(self):
-        self.call("run", self.scene(with_output(BLOCK, 'fields = ["velocity", "J", "von_mises", "F"]')), "--output", "out")
+        text = with_output(BLOCK, 'fields = ["velocity", "J", "von_mises", "F"]')
+        self.call("run", self.scene(text), "--output", "out")
         results = self.open("out")
         frame = results.frame(-1)
         self.assertEqual((frame.time, frame.step), (results.times[-1], results.steps[-1]))

@@ -87,6 +87,41 @@ class Motions(unittest.TestCase):
         self.assertAlmostEqual((run.measure("sheet.centre_x") - begin) / ((run.time - time) ** 2 / 2), 1, delta=1e-12)
         self.assertEqual(never.measure("sheet.centre_x"), begin)
 
+    def test_each_body_has_its_own_forces(self):
+        """Two forces on the second of two bodies."""
+        scene = sheet()
+        scene["body"].append({**scene["body"][0], "name": "other", "centre": [5, 0], "cells": [4, 6]})
+        run, places = meniscus.Run(scene), []
+
+        def pull(t, x, v):
+            places.append(x)
+            return np.full(x.shape, [MASS / len(x), 0])
+
+        run.add_force("other", pull)
+        run.add_force("other", lambda t, x, v: np.full(x.shape, [0, -MASS / len(x)]))
+        run.advance_to(0.5)
+        np.testing.assert_allclose(places[0].mean(axis=0), [5, 0], atol=1e-12)
+        fallen = run.time**2 / 2
+        for name, expected in (("sheet", [0, 0]), ("other", [5 + fallen, -fallen])):
+            centre = [run.measure(f"{name}.centre_{i}") for i in "xy"]
+            np.testing.assert_allclose(centre, expected, atol=1e-12)
+
+    def test_drops_with_either_viscosity_and_bodies_of_revolution(self):
+        drop = {"name": "drop", "shape": "disk", "radius": 1, "core": 4, "rings": 2, "material": {
+            "type": "newtonian", "density": 1, "bulk_modulus": 200, "viscosity": 2}}  # fmt: skip
+        tension = [{"body": "drop", "gamma": 1}]
+        for dimension, viscosity in ((2, "implicit"), (2, "explicit"), ("axisymmetric", "implicit")):
+            run = meniscus.Run({"dimension": dimension, "time": {"end": 1, "viscosity": viscosity}, "body": [drop],
+                                "surface_tension": tension})  # fmt: skip
+            mass, begin, energy = run.field("drop", "mass"), run.measure("drop.centre_y"), balance(run)
+            run.add_force("drop", lambda t, x, v, m=mass: m[:, None] * [0, 3])
+            run.advance_to(0.5)
+            moved = run.measure("drop.centre_y") - begin
+            self.assertAlmostEqual(moved / (3 * run.time**2 / 2), 1, delta=1e-12)
+            work = run.energies()["external_work"]
+            self.assertAlmostEqual(work / (mass.sum() * 3 * moved), 1, delta=5e-3)
+            self.assertAlmostEqual((balance(run) - energy) / work, 0, delta=1e-4)
+
     def test_damping_takes_energy_out(self):
         """M v' = - c v."""
         scene = sheet()

@@ -218,10 +218,13 @@ class Package(unittest.TestCase):
                 self.assertTrue(member.__doc__ or getattr(member, "__func__", member).__doc__, name)
 
     def test_a_run_in_its_own_force_is_collected(self):
-        run = meniscus.Run(SHEET)
-        run.add_force("sheet", lambda t, x, v: 0 * x + (run is None))
-        reference = weakref.ref(run)
-        del run
+        def reference_to_run():
+            run = meniscus.Run(SHEET)
+            run.add_force("sheet", lambda t, x, v: 0 * x + (run is None))
+            return weakref.ref(run)
+
+        reference = reference_to_run()
+        self.assertIsNotNone(reference())
         gc.collect()
         self.assertIsNone(reference())
 
