@@ -14,9 +14,17 @@
 
 namespace meniscus {
 
-std::filesystem::path own_directory() {
+namespace {
+
+std::filesystem::path this_program() {
   std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+}
+
+}  // namespace
+
+std::filesystem::path own_directory() {
+  return this_program().parent_path();
 }
 
 void hand_over_to_studies(char** argv) {
@@ -44,7 +52,7 @@ void hand_over_to_python(const std::string& name, char** argv) {
   for (char** word = argv + 2; *word != nullptr; ++word) words.push_back(*word);
   words.push_back(nullptr);
   setenv("MENISCUS_COMMAND", ("meniscus " + name).c_str(), 1);
-  setenv("MENISCUS_PROGRAM", (own_directory() / "meniscus").c_str(), 1);
+  setenv("MENISCUS_PROGRAM", this_program().c_str(), 1);
   execv(python, words.data());
   throw FileError(fmt::format("'{}' is not there, which draws and fits", python));
 }
