@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints a table of what series of `meniscus converge --budget` found: the value of each scene with its errors
-in %, their sum, and how far the value is from what the scene expects. Results that are expected to be 0, and
-those without an expected value, are left out."""
+"""Prints a table of what series of `meniscus converge --budget` found: limit and error bar by resolution, the
+value of the scene itself with the parts of its error in %, their sum, and how far the value is from what the
+scene expects. Results that are expected to be 0, and those without an expected value, are left out."""
 
 import argparse
 import csv
@@ -10,7 +10,7 @@ import pathlib
 import sys
 
 PARTS = ("resolution", "range", "compressibility", "step", "equilibrium")
-HEAD = f"| scene | result | value | expected | {' | '.join(PARTS)} | sum | off by |\n|{'---|' * (len(PARTS) + 6)}\n"
+HEAD = f"| scene | result | limit | error bar | value | expected | {' | '.join(PARTS)} | sum | off by |\n|{'---|' * (len(PARTS) + 8)}\n"
 
 
 def rows_of(path):
@@ -42,7 +42,7 @@ def lines_of(folder):
         within += off <= total
         numbers = [cells[part].removesuffix(" %") if part in cells else "" for part in PARTS]
         scene = folder.resolve().name.removesuffix("-convergence")
-        shown = " | ".join([f"`{scene}`", f"`{name}`", f"{value:.6g}", f"{expected:.6g}", *numbers])
+        shown = " | ".join([f"`{scene}`", f"`{name}`", f"{float(found[name]['limit']):.6g}", found[name]["error bar"], f"{value:.6g}", f"{expected:.6g}", *numbers])
         lines.append(f"| {shown} | {total:.2g} | {off:.2g}{'' if off <= total else ' (more)'} |\n")
     return lines, within
 
