@@ -15,23 +15,17 @@ namespace {
 
 struct Keys {
   std::string body, type;
-  int points = 3;
+  int points = 0;
   std::unique_ptr<const SurfaceMaterial> law;
 
   static Rows<Keys> rows() {
-    return {text_row("body", &Keys::body, "name of the body whose surface it is"),
-            integer_row("points", &Keys::points, {1, 8},
-                        "Gauss points per direction and surface facet", 3)};
-  }
-  /// [surface.law]
-  void read_inner(const Block& block) {
-    const auto table = block.table("law", true);
-    if (!table) return;
-    if (const auto kind = table->kind("type", surface_laws().names())) {
-      type = *kind;
-      law = surface_laws().at(type).read(*table);
-    }
-    table->done();
+    Row<Keys> points = integer_row("points", &Keys::points, {1, 20},
+                                   "Gauss points per direction and surface facet; helfrich needs "
+                                   "at least 6, in 2D 12",
+                                   3);
+    points.fallback = "3; helfrich 8, in 2D 16";
+    points.read = [](Keys&, const Block&) {};  // by read_inner(), which knows the law
+    return {text_row("body", &Keys::body, "name of the body whose surface it is"), points};
   }
   static std::vector<KeyTable> inner_tables() {
     std::vector<KeyTable> tables;
@@ -47,6 +41,25 @@ template <int D>
 struct Surface final : Load<D>, Keys {
   static constexpr std::string_view example =
       "body = \"drop\"\n[surface.law]\ntype = \"tension\"\ngamma = 1\n";
+  /// Reads [surface.law], then the points, whose number depends on the law. Energies of curvature
+  /// at fewer points than the least could fall without bound (membranes note 3).
+  void read_inner(const Block& block) {
+    if (const auto table = block.table("law", true)) {
+      if (const auto kind = table->kind("type", surface_laws().names())) {
+        type = *kind;
+        law = surface_laws().at(type).read(*table);
+      }
+      table->done();
+    }
+    const bool curved = law && law->needs_curvature();
+    const int least = !curved ? 1 : D == 3 ? 6 : 12, usual = !curved ? 3 : D == 3 ? 8 : 16;
+    points = static_cast<int>(block.integer("points", {1, 20}, usual));
+    if (points < least)
+      block.problem("points", fmt::format("{} points per direction are too few for \"{}\", whose "
+                                          "energy could fall without bound; expected are at least "
+                                          "{}",
+                                          points, type, least));
+  }
   /// The resource that a table claims: a body can have one tension, and at most one law of every
   /// other type.
   std::string claim() const override {
@@ -57,8 +70,11 @@ struct Surface final : Load<D>, Keys {
     require_body(block, bodies, body);
   }
   void prepare(BodyPlans<D>& bodies) const override {
-    for (BodyPlan<D>& planned : bodies)
-      planned.pulled_along |= planned.settings.name == body && type == "varying_tension";
+    for (BodyPlan<D>& planned : bodies) {
+      if (planned.settings.name != body) continue;
+      planned.pulled_along |= type == "varying_tension";
+      planned.curvature |= law && law->needs_curvature();
+    }
   }
   /// Adds the term with its measures. Measures of a tension are named after the body alone,
   /// measures of other laws after the body and the type.

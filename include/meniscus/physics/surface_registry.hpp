@@ -26,6 +26,9 @@ class SurfaceMaterial {
   virtual std::optional<Real> unstable_modulus() const { return std::nullopt; }
   /// True if the law depends on the deformation of the surface since the reference.
   virtual bool keeps_reference() const { return true; }
+  /// True if the law depends on the curvature of the surface. Its energy is then a sum over Gauss
+  /// points that has a lower bound only if there are several for each unknown.
+  virtual bool needs_curvature() const { return false; }
 };
 
 /// A term whose surface tension varies over the surface.
