@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface laws on the whole surface of a body, one table per law.
+#include "meniscus/physics/law_registry.hpp"
 #include "meniscus/physics/surface_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
 
@@ -21,9 +22,9 @@ struct Keys {
   static Rows<Keys> rows() {
     Row<Keys> points = integer_row("points", &Keys::points, {1, 20},
                                    "Gauss points per direction and surface facet; helfrich needs "
-                                   "at least 6, in 2D 12",
+                                   "at least 10, in 2D 12; 5 on a solid",
                                    3);
-    points.fallback = "3; helfrich 8, in 2D 16";
+    points.fallback = "3; helfrich 12, in 2D 16";
     points.read = [](Keys&, const Block&) {};  // by read_inner(), which knows the law
     return {text_row("body", &Keys::body, "name of the body whose surface it is"), points};
   }
@@ -41,8 +42,7 @@ template <int D>
 struct Surface final : Load<D>, Keys {
   static constexpr std::string_view example =
       "body = \"drop\"\n[surface.law]\ntype = \"tension\"\ngamma = 1\n";
-  /// Reads [surface.law], then the points, whose number depends on the law. Energies of curvature
-  /// at fewer points than the least could fall without bound (membranes note 3).
+  /// Reads [surface.law], then the points, whose default depends on the law.
   void read_inner(const Block& block) {
     if (const auto table = block.table("law", true)) {
       if (const auto kind = table->kind("type", surface_laws().names())) {
@@ -51,14 +51,8 @@ struct Surface final : Load<D>, Keys {
       }
       table->done();
     }
-    const bool curved = law && law->needs_curvature();
-    const int least = !curved ? 1 : D == 3 ? 6 : 12, usual = !curved ? 3 : D == 3 ? 8 : 16;
+    const int usual = !curved() ? 3 : D == 3 ? 12 : 16;
     points = static_cast<int>(block.integer("points", {1, 20}, usual));
-    if (points < least)
-      block.problem("points", fmt::format("{} points per direction are too few for \"{}\", whose "
-                                          "energy could fall without bound; expected are at least "
-                                          "{}",
-                                          points, type, least));
   }
   /// The resource that a table claims: a body can have one tension, and at most one law of every
   /// other type.
@@ -67,13 +61,14 @@ struct Surface final : Load<D>, Keys {
     return type == "tension" ? surface : "the " + type + " of " + surface;
   }
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
-    require_body(block, bodies, body);
+    const BodyPlan<D>* planned = require_body(block, bodies, body);
+    if (planned && curved()) require_points(block, *planned);
   }
   void prepare(BodyPlans<D>& bodies) const override {
     for (BodyPlan<D>& planned : bodies) {
       if (planned.settings.name != body) continue;
       planned.pulled_along |= type == "varying_tension";
-      planned.curvature |= law && law->needs_curvature();
+      planned.curvature |= curved();
     }
   }
   /// Adds the term with its measures. Measures of a tension are named after the body alone,
@@ -93,6 +88,17 @@ struct Surface final : Load<D>, Keys {
   }
 
  private:
+  bool curved() const { return law && law->needs_curvature(); }
+  /// With too few points, the energy of a liquid falls without bound: nothing else resists motions
+  /// that only the quadrature sees (membranes note 3).
+  void require_points(const Block& block, const BodyPlan<D>& planned) const {
+    const int least = !planned.material || !planned.material->fluid() ? 5 : D == 3 ? 10 : 12;
+    if (points < least)
+      block.problem("points", fmt::format("{} points per direction are too few for \"{}\", whose "
+                                          "energy could fall without bound; expected are at least "
+                                          "{}",
+                                          points, type, least));
+  }
   CarriedField& required_director(const Assembly<D>& assembly) const {
     if (CarriedField* director = assembly.of(body).director) return *director;
     throw InputError(fmt::format(
