@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -195,6 +196,56 @@ TEST(Bending, NoRelaxationFallsBelowTheSphere) {
   EXPECT_NEAR(measured("b.aspect"), 1, 5e-3);
 }
 
+std::string cylinder(const std::string& lines) {
+  return "dimension = 3\n[time]\nend = 1\n[[body]]\nname = \"b\"\nshape = \"cylinder\"\nradius = "
+         "0.5\nheight = 2\ncore = 4\nrings = 2\nlayers = 6\nmaterial = { type = \"neo_hookean\", "
+         "density = 1, mu = 1, lambda = 1 }\n" +
+         lines;
+}
+std::string on_face(const std::string& face, const std::string& type, const std::string& numbers) {
+  return "[[surface]]\nbody = \"b\"\nface = \"" + face + "\"\n[surface.law]\ntype = \"" + type +
+         "\"\n" + numbers;
+}
+
+/// The side of a cylinder of the height h has pi kappa h/R, and the energy of a membrane on it is
+/// that of its area alone, up to the area of the reference by three points per direction.
+TEST(Bending, LawsActOnFacesAlone) {
+  const Scene<3> scene =
+      test::scene_of<3>(cylinder(on_face("side", "helfrich", "bending_modulus = 1\n") +
+                                 on_face("side", "skalak", "shear_modulus = 1\n") +
+                                 on_face("z_max", "skalak", "shear_modulus = 1\n")));
+  const NodalVectors u = test::field_on<3>(scene.system.bodies.front(), [](const Vec<3>& X) {
+    return Vec<3>(0.2 * X[0], 0.2 * X[1], 0.5 * X[2]);
+  });
+  const auto measured = [&](const char* name) {
+    for (const MeasureSource& measure : scene.measures)
+      if (measure.name == name) return measure.compute({0, u, u});
+    return 0.0;
+  };
+  EXPECT_NEAR(measured("b.helfrich.side.energy"), pi * 3 / 0.6, 1e-9);
+  EXPECT_NEAR(measured("b.skalak.side.area"), 2 * pi * 0.6 * 3, 5e-5);
+  EXPECT_NEAR(measured("b.skalak.z_max.area"), pi * 0.36, 5e-6);
+  const auto published = [](Real a, Real b) {
+    const Real I1 = a * a + b * b - 2, I2 = a * a * b * b - 1;
+    return (I1 * I1 + 2 * I1 - 2 * I2 + I2 * I2) / 4;
+  };
+  const auto term = [&](const std::string& name) -> ForceTerm& {
+    return **std::find_if(scene.system.terms.begin(), scene.system.terms.end(),
+                          [&](const auto& t) { return t->name() == name; });
+  };
+  EXPECT_NEAR(test::energy_of(term("skalak of the face 'side' of 'b'"), u),
+              2 * pi * published(1.2, 1.5), 5e-5);
+  EXPECT_NEAR(test::energy_of(term("skalak of the face 'z_max' of 'b'"), u),
+              pi / 4 * published(1.2, 1.2), 5e-6);
+  ForceTerm& bending = term("bending of the face 'side' of 'b'");
+  const NodalVectors noisy =
+      test::sum_of(u, 1, test::random_field<3>(scene.system.bodies.front().size(), 0.01, 3));
+  EXPECT_LT(
+      test::gradient_error(bending, noisy,
+                           test::random_field<3>(scene.system.bodies.front().size(), 1, 8), 1e-4),
+      1e-8);
+}
+
 std::string refusal(const std::string& text) {
   try {
     Scene<3> scene = test::scene_of<3>(text);
@@ -228,6 +279,10 @@ TEST(Bending, NeedsASmoothSurfaceAndEnoughPoints) {
       << few;
   EXPECT_NE(few.find("expected are at least 10"), std::string::npos) << few;
   EXPECT_NE(with_points(solid, 4).find("expected are at least 5"), std::string::npos);
+  const std::string other = refusal(cylinder(on_face("sides", "skalak", "shear_modulus = 1\n"))),
+                    tension = refusal(cylinder(on_face("side", "tension", "gamma = 1\n")));
+  EXPECT_NE(other.find("sides"), std::string::npos) << other;
+  EXPECT_NE(tension.find("goes with [[surface_tension]]"), std::string::npos) << tension;
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace meniscus {
 namespace {
 
@@ -49,6 +51,16 @@ Real second(const Real* hessian, const Real* gradient, const Vec<D>& t, const Ve
   return along<D>(hessian, t, other) - bend * along<D>(gradient, N);
 }
 
+/// Whether these sites have no edges between them: a smooth surface, or one patch.
+template <int D>
+bool is_smooth(const Body<D>& body, const SurfaceSites& sites, const SurfacePoints<D>& surface) {
+  if (sites.face.empty()) return body.geometry.surface->smooth();
+  const auto patch_of = [&](Index facet) { return at(body.geometry.grid.facets, facet).patch; };
+  return std::all_of(surface.facet.begin(), surface.facet.end(), [&](Index facet) {
+    return patch_of(facet) == patch_of(surface.facet.front());
+  });
+}
+
 }  // namespace
 
 template <>
@@ -57,14 +69,14 @@ template <>
 void BendingRows<2>::add_point(const PointRows<2>&, const SurfacePoints<2>&, Index);
 
 template <int D>
-BendingRows<D>::BendingRows(const Body<D>& body, int per_direction) {
-  const SurfacePoints<D> surface = surface_points(body.geometry, per_direction);
-  if (!body.geometry.surface->smooth() || !surface.exact)
+BendingRows<D>::BendingRows(const Body<D>& body, const SurfaceSites& sites) {
+  const SurfacePoints<D> surface = points_at(body, sites);
+  if (!is_smooth(body, sites, surface) || !surface.exact)
     throw InputError(
-        fmt::format("body '{}': bending needs a smooth surface, but this shape has edges, where "
-                    "the curvature is undefined; expected is a round shape such as ball, "
-                    "ellipsoid, disk, or a smooth mesh",
-                    body.name));
+        fmt::format("body '{}': bending needs a smooth surface, but this {} has edges, where the "
+                    "curvature is undefined; expected is a round shape such as ball, ellipsoid, "
+                    "disk, a smooth mesh, or one face",
+                    body.name, sites.face.empty() ? "shape" : "face"));
   const PointRows<D> rows = build_point_rows<D>(
       body.particles, surface.X, {.value = D == 2, .gradient = true, .hessian = true}, body.name);
   start_ = rows.start;

@@ -3,9 +3,9 @@
 // along the reference surface at Gauss points of the facets (membranes note 2).
 #pragma once
 #include "body/body.hpp"
-#include "body/surface/surface_points.hpp"
 #include "numbers/dual.hpp"
 #include "physics/surface/bending.hpp"
+#include "physics/surface/surface_sites.hpp"
 
 #include <type_traits>
 
@@ -17,9 +17,9 @@ namespace meniscus {
 template <int D>
 class BendingRows {
  public:
-  /// `per_direction`: Gauss points per direction of every facet. Throws InputError if the surface
+  /// Throws InputError if the surface
   /// of the body has edges or is made of flat facets.
-  BendingRows(const Body<D>& body, int per_direction);
+  BendingRows(const Body<D>& body, const SurfaceSites& sites);
 
   Index size() const { return static_cast<Index>(area_.size()); }
   /// Reference area of a point; areas of all points add up to the surface of the body.

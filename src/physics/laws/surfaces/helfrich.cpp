@@ -43,17 +43,22 @@ SurfaceDerivatives<Dual<Real>> dual_of(const SurfaceDerivatives<Real>& value,
 template <int D>
 class Helfrich final : public ForceTerm {
  public:
-  Helfrich(const Body<D>& body, const HelfrichKeys& keys, int points)
+  Helfrich(const Body<D>& body, const HelfrichKeys& keys, const SurfaceSites& sites)
       : body_(body),
         modulus_(keys.bending_modulus),
-        rows_(body, points),
+        face_(sites.face),
+        rows_(body, sites),
         chunk_sums_(rows_.chunk_sums(body)),
         curvature_(static_cast<std::size_t>(rows_.size()), keys.spontaneous_curvature) {
     if (keys.natural == "reference")
       for (Index q = 0; q < rows_.size(); ++q) at(curvature_, q) += rows_.twice_mean_curvature(q);
   }
 
-  std::string name() const override { return "bending of the surface of '" + body_.name + "'"; }
+  std::string name() const override {
+    return (face_.empty() ? "bending of the surface of '"
+                          : "bending of the face '" + face_ + "' of '") +
+           body_.name + "'";
+  }
   std::string_view energy_kind() const override { return "bending"; }
 
   Report add_force(const Motion& motion, Forces force) override {
@@ -119,6 +124,7 @@ class Helfrich final : public ForceTerm {
 
   const Body<D>& body_;
   Real modulus_;
+  std::string face_;  // empty: the whole surface
   BendingRows<D> rows_;
   ChunkSums chunk_sums_;
   std::vector<Real> curvature_;  // [point] c0
@@ -128,11 +134,11 @@ class HelfrichMaterial final : public SurfaceMaterial {
  public:
   explicit HelfrichMaterial(HelfrichKeys keys) : keys_(std::move(keys)) {}
 
-  std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const override {
-    return std::make_unique<Helfrich<2>>(body, keys_, points);
+  std::unique_ptr<ForceTerm> build(const Body<2>& body, const SurfaceSites& sites) const override {
+    return std::make_unique<Helfrich<2>>(body, keys_, sites);
   }
-  std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
-    return std::make_unique<Helfrich<3>>(body, keys_, points);
+  std::unique_ptr<ForceTerm> build(const Body<3>& body, const SurfaceSites& sites) const override {
+    return std::make_unique<Helfrich<3>>(body, keys_, sites);
   }
   /// The energy is per present area, so a remap changes it only if the reference is the natural
   /// shape.
