@@ -7,8 +7,8 @@ tests/unit/test_membranes.cpp and of inputs/axisymmetric_capsule.toml.
 The meridian r(theta), z(theta) is a sum of harmonics that are symmetric about the equator. Newton's
 method finds the stationary point of membrane energy - work of the load - p (volume - 4 pi/3), with
 derivatives by complex steps. For surface tensions 0 and 0.3 beside the membrane, each load, and 8, 12
-and 16 harmonics, prints: surface tension, load, half of the length, radius at the equator, pressure, energy, area, largest and least tensions T1 (along the
-meridian) and T2 (around), and the residual."""
+and 16 harmonics, prints: surface tension, load, half of the length, radius at the equator, pressure,
+energy, area, least and largest tensions T1 (along the meridian) and T2 (around), and the residual."""
 
 import numpy as np
 
