@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface laws on the whole surface of a body, one table per law.
+// Surface laws on the whole surface of a body or on one face, one table per law.
+#include "meniscus/physics/law_registry.hpp"
 #include "meniscus/physics/surface_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
+#include "scene/face_keys.hpp"
 
 #include <fmt/core.h>
 
@@ -14,24 +16,23 @@ namespace meniscus::surface_table {
 namespace {
 
 struct Keys {
-  std::string body, type;
-  int points = 3;
+  std::string body, face, type;
+  int points = 0;
   std::unique_ptr<const SurfaceMaterial> law;
 
   static Rows<Keys> rows() {
+    Row<Keys> points = integer_row("points", &Keys::points, {1, 20},
+                                   "Gauss points per direction and surface facet; helfrich needs "
+                                   "at least 10, in 2D 12; 5 on a solid",
+                                   3);
+    points.fallback = "3; helfrich 12, in 2D 16";
+    points.read = [](Keys&, const Block&) {};  // by read_inner(), which knows the law
     return {text_row("body", &Keys::body, "name of the body whose surface it is"),
-            integer_row("points", &Keys::points, {1, 8},
-                        "Gauss points per direction and surface facet", 3)};
-  }
-  /// [surface.law]
-  void read_inner(const Block& block) {
-    const auto table = block.table("law", true);
-    if (!table) return;
-    if (const auto kind = table->kind("type", surface_laws().names())) {
-      type = *kind;
-      law = surface_laws().at(type).read(*table);
-    }
-    table->done();
+            text_row("face", &Keys::face,
+                     "name of a face of its shape, as `meniscus check` lists them; empty: the "
+                     "whole surface",
+                     ""),
+            points};
   }
   static std::vector<KeyTable> inner_tables() {
     std::vector<KeyTable> tables;
@@ -47,36 +48,71 @@ template <int D>
 struct Surface final : Load<D>, Keys {
   static constexpr std::string_view example =
       "body = \"drop\"\n[surface.law]\ntype = \"tension\"\ngamma = 1\n";
+  /// Reads [surface.law], then the points, whose default depends on the law.
+  void read_inner(const Block& block) {
+    if (const auto table = block.table("law", true)) {
+      if (const auto kind = table->kind("type", surface_laws().names())) {
+        type = *kind;
+        law = surface_laws().at(type).read(*table);
+      }
+      table->done();
+    }
+    const int usual = !curved() ? 3 : D == 3 ? 12 : 16;
+    points = static_cast<int>(block.integer("points", {1, 20}, usual));
+  }
   /// The resource that a table claims: a body can have one tension, and at most one law of every
   /// other type.
   std::string claim() const override {
-    const std::string surface = "the surface of '" + body + "'";
+    const std::string surface =
+        (face.empty() ? "the surface of '" : "the face '" + face + "' of '") + body + "'";
     return type == "tension" ? surface : "the " + type + " of " + surface;
   }
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
-    require_body(block, bodies, body);
+    const BodyPlan<D>* planned = require_body(block, bodies, body);
+    if (planned && curved()) require_points(block, *planned);
+    if (face.empty()) return;
+    if (planned) FaceKeys{body, face, std::nullopt}.check(block, bodies);
+    if (type == "tension")
+      block.problem("face", "goes with [[surface_tension]]; allowed is the whole surface");
   }
   void prepare(BodyPlans<D>& bodies) const override {
-    for (BodyPlan<D>& planned : bodies)
-      planned.pulled_along |= planned.settings.name == body && type == "varying_tension";
+    for (BodyPlan<D>& planned : bodies) {
+      if (planned.settings.name != body) continue;
+      planned.pulled_along |= type == "varying_tension";
+      planned.curvature |= curved();
+    }
   }
   /// Adds the term with its measures. Measures of a tension are named after the body alone,
   /// measures of other laws after the body and the type.
   void build(Assembly<D>& assembly) const override {
     require_stable(assembly);
-    std::unique_ptr<ForceTerm> term = law->build(assembly.body(body), points);
+    std::unique_ptr<ForceTerm> term = law->build(assembly.body(body), {points, face});
     if (auto* anchored = dynamic_cast<AnchoredTerm*>(term.get()))
       anchored->anchor(required_director(assembly));
     const auto* varied = dynamic_cast<const VariedTension*>(term.get());
     if (varied && assembly.of(body).is_fluid()) assembly.check(negative_tension(*varied, assembly));
-    assembly.add(std::move(term), type == "tension" ? body : body + "." + type);
+    const std::string of_face = face.empty() ? "" : "." + face;
+    assembly.add(std::move(term), type == "tension" ? body : body + "." + type + of_face);
     if (const Real energy = law->energy_at_rest(); energy > 0)
       assembly.of(body).surface_energy = energy;
-    if (law->keeps_reference())
+    if (!face.empty())
+      assembly.keep_reference(body, "its [[surface]] knows the faces of its shape only");
+    else if (law->keeps_reference())
       assembly.keep_reference(body, "its [[surface]] has an energy per area of the reference");
   }
 
  private:
+  bool curved() const { return law && law->needs_curvature(); }
+  /// With too few points, the energy of a liquid falls without bound: nothing else resists motions
+  /// that only the quadrature sees (membranes note 3).
+  void require_points(const Block& block, const BodyPlan<D>& planned) const {
+    const int least = !planned.material || !planned.material->fluid() ? 5 : D == 3 ? 10 : 12;
+    if (points < least)
+      block.problem("points", fmt::format("{} points per direction are too few for \"{}\", whose "
+                                          "energy could fall without bound; expected are at least "
+                                          "{}",
+                                          points, type, least));
+  }
   CarriedField& required_director(const Assembly<D>& assembly) const {
     if (CarriedField* director = assembly.of(body).director) return *director;
     throw InputError(fmt::format(
@@ -130,7 +166,7 @@ struct Surface final : Load<D>, Keys {
 };
 
 const bool registered = register_load<Surface>(
-    "surface", Stage::surface, "the whole surface of a body by a law; several laws add up");
+    "surface", Stage::surface, "the surface of a body, or a face, by a law; several laws add up");
 
 }  // namespace
 }  // namespace meniscus::surface_table

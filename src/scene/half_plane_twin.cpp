@@ -56,6 +56,7 @@ const std::map<std::string, TwinShape, std::less<>> twin_shapes{
     {"ellipsoid", {"ellipse", true}},
     {"half_sphere", {"half_disk"}},
     {"cap", {"cap"}},
+    {"red_cell", {"red_cell"}},
     {"cylinder", {"rectangle"}},
     {"disk_shell", {"disk_shell"}},
     {"sphere_shell", {"sphere_shell", true}},
@@ -161,7 +162,7 @@ class Twin {
       if (of_shape != twin_faces.end())
         if (const auto face = of_shape->second.find(*formula); face != of_shape->second.end())
           made.data = face->second;
-      if (shape_of(given) == "ball" || shape_of(given) == "ellipsoid")
+      if (is_one_of(shape_of(given), {"ball", "ellipsoid", "red_cell"}))
         made.data = std::string("rim");
       return made;
     }
@@ -245,7 +246,7 @@ class Twin {
 
   /// Whether a shape has shells of cells around a core.
   static bool is_of_shells(std::string_view shape) {
-    return is_one_of(shape, {"ball", "half_sphere", "cap", "ellipsoid"});
+    return is_one_of(shape, {"ball", "half_sphere", "cap", "ellipsoid", "red_cell"});
   }
   /// Adds the entries of a shape in the half plane. True if the entry is done.
   bool take_shape(const Table& body, const std::string& shape, const Entry& entry, Table& twin) {

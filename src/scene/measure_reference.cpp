@@ -4,6 +4,7 @@
 #include "input/names.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/physics/partner_registry.hpp"
+#include "meniscus/physics/surface_registry.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/example_scenes.hpp"
 #include "scene/key_reference.hpp"
@@ -100,6 +101,13 @@ void for_measure_tables(const std::function<bool(const MeasureTable&)>& found) {
                                        "body = \"shell\"\nsurface = \"inner\"\npressure = 0.3\n"));
     if (name == "contact")
       for (std::string& scene : contact_scenes()) scenes.push_back(std::move(scene));
+    if (name == "surface")
+      for (const auto& [law, entry] : surface_laws())
+        if (law != "anchoring")  // of a nematic, above
+          scenes.push_back(
+              scene_with_load(dimensions, name,
+                              fmt::format("body = \"drop\"\n[surface.law]\ntype = \"{}\"\n{}", law,
+                                          entry.example)));
     section("with [[" + name + "]]", scenes);
   };
   // Surface tension first, because the scenes of other loads contain it too.

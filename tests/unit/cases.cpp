@@ -45,6 +45,7 @@ std::vector<Case> variants(int D) {
   const std::string cavity = "body = \"drop\"\nsurface = \"outer\"\n";
   add("cavity", "pressure", cavity + "pressure = 0.3\n", all);
   add("cavity", "content", cavity + "volume_target = 0.9\npenalty = 2\nramp = [0, 0.2]\n", all);
+  add("area", "kept", "body = \"drop\"\nmodulus = 3\n", all);
   add("spring", "moved by a ramp",
       std::string("body = \"drop\"\nwhere = \"y > 0.8\"\nstiffness = 3\nramp = [0, 0.2]\n") +
           (D == 3 ? "displacement = [0.1, \"0.2*x\", 0.05]\n"

@@ -127,6 +127,8 @@ void add_loads(std::vector<Case>& cases) {
   add("cavity with a pressure", example_solid(), cavity + "pressure = 0.3\n");
   add("cavity with a content", example_solid(),
       cavity + "volume_target = 0.9\npenalty = 2\nramp = [0, 0.2]\n");
+  add("total area", example_solid(),
+      "[[area]]\nbody = \"drop\"\nmodulus = 2\narea_target = 1.05\nramp = [0, 0.2]\n");
   add("probe", example_solid(),
       "[[probe]]\nname = \"tip\"\nbody = \"drop\"\nat = [0.05, 0.3]\n"
       "fields = [\"displacement\", \"velocity\", \"pressure\"]\n");
@@ -194,6 +196,7 @@ std::vector<Case> revolved_cases() {
         std::pair("ring", "radius = 1\nthickness = 0.4\naround = 24\nlayers = 3\n"),
         std::pair("half_disk", "radius = 1\ncore = 6\nrings = 3\n"),
         std::pair("ellipse", "semi_axes = [1, 1.4]\ncore = 6\nrings = 3\n"),
+        std::pair("red_cell", "diameter = 2\ncore = 6\nrings = 3\n"),
         std::pair("disk_shell", "radius = 2\nheight = 1.6\nthickness = 0.4\nspacing = 0.6\n"),
         std::pair("sphere_shell", "radius = 1\nthickness = 0.4\nspacing = 0.3\n")})
     cases.push_back({std::string("revolved ") + shape,

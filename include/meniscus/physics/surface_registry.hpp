@@ -18,14 +18,19 @@ namespace meniscus {
 class SurfaceMaterial {
  public:
   virtual ~SurfaceMaterial() = default;
-  virtual std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const = 0;
-  virtual std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const = 0;
+  virtual std::unique_ptr<ForceTerm> build(const Body<2>& body,
+                                           const SurfaceSites& sites) const = 0;
+  virtual std::unique_ptr<ForceTerm> build(const Body<3>& body,
+                                           const SurfaceSites& sites) const = 0;
   /// Energy per area of the undeformed surface, if the law defines it.
   virtual Real energy_at_rest() const { return 0; }
   /// See ModuliSurfaceLaw.
   virtual std::optional<Real> unstable_modulus() const { return std::nullopt; }
   /// True if the law depends on the deformation of the surface since the reference.
   virtual bool keeps_reference() const { return true; }
+  /// True if the law depends on the curvature of the surface. Its energy is then a sum over Gauss
+  /// points that has a lower bound only if there are several for each unknown.
+  virtual bool needs_curvature() const { return false; }
 };
 
 /// A term whose surface tension varies over the surface.
@@ -64,11 +69,11 @@ class SurfaceMaterialOf final : public SurfaceMaterial {
  public:
   explicit SurfaceMaterialOf(const L& law) : law_(law) {}
 
-  std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const override {
-    return std::make_unique<SurfaceForce<2, L>>(body, law_, points);
+  std::unique_ptr<ForceTerm> build(const Body<2>& body, const SurfaceSites& sites) const override {
+    return std::make_unique<SurfaceForce<2, L>>(body, law_, sites);
   }
-  std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
-    return std::make_unique<SurfaceForce<3, L>>(body, law_, points);
+  std::unique_ptr<ForceTerm> build(const Body<3>& body, const SurfaceSites& sites) const override {
+    return std::make_unique<SurfaceForce<3, L>>(body, law_, sites);
   }
   Real energy_at_rest() const override {
     SurfaceState<Lanes> rest{};
@@ -91,11 +96,11 @@ class ViscousSurfaceOf final : public SurfaceMaterial {
  public:
   explicit ViscousSurfaceOf(const L& law) : law_(law) {}
 
-  std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const override {
-    return std::make_unique<SurfaceViscosity<2, L>>(body, law_, points);
+  std::unique_ptr<ForceTerm> build(const Body<2>& body, const SurfaceSites& sites) const override {
+    return std::make_unique<SurfaceViscosity<2, L>>(body, law_, sites);
   }
-  std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
-    return std::make_unique<SurfaceViscosity<3, L>>(body, law_, points);
+  std::unique_ptr<ForceTerm> build(const Body<3>& body, const SurfaceSites& sites) const override {
+    return std::make_unique<SurfaceViscosity<3, L>>(body, law_, sites);
   }
   bool keeps_reference() const override { return false; }
 

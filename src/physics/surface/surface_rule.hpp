@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gauss points of the whole surface of a body, and the deformation at these points, four at a time.
+// Gauss points of the surface of a body or of one face, and the deformation at these points, four
+// at a time.
 #pragma once
 #include "body/body.hpp"
-#include "body/surface/surface_points.hpp"
 #include "meniscus/physics/force_term.hpp"
 #include "numbers/dual.hpp"
 #include "physics/surface/surface_law.hpp"
+#include "physics/surface/surface_sites.hpp"
 
 namespace meniscus {
 
@@ -15,9 +16,8 @@ struct SurfaceRule {
   AlignedVector<Lanes> normal;    ///< [group][K] outward unit normal of the reference
   std::vector<Vec<D>> reference;  ///< [point] X
 
-  /// `per_direction`: Gauss points per direction of every facet.
-  SurfaceRule(const Body<D>& body, int per_direction, bool with_values = false) {
-    SurfacePoints<D> surface = surface_points(body.geometry, per_direction);
+  SurfaceRule(const Body<D>& body, const SurfaceSites& sites, bool with_values = false) {
+    SurfacePoints<D> surface = points_at(body, sites);
     points.rows = build_point_rows<D>(body.particles, surface.X,
                                       {.value = with_values, .gradient = true}, body.name);
     points.point_weight = surface.area;
@@ -70,19 +70,21 @@ struct SurfaceRule {
   }
 };
 
-/// Common base of terms of a surface law on the whole surface of a body.
+/// Common base of terms of a surface law on the surface of a body or on one face.
 template <int D, class L>
 class SurfaceTerm : public ForceTerm {
  public:
-  /// `points`: Gauss points per direction of every facet.
-  SurfaceTerm(const Body<D>& body, const L& law, int points)
+  SurfaceTerm(const Body<D>& body, const L& law, const SurfaceSites& sites)
       : body_(body),
         law_(law),
-        surface_(body, points),
+        face_(sites.face),
+        surface_(body, sites),
         chunk_sums_(surface_.points.chunk_sums(body)) {}
 
   std::string name() const override {
-    return std::string(L::type_name) + " of the surface of '" + body_.name + "'";
+    return std::string(L::type_name) +
+           (face_.empty() ? " of the surface of '" : " of the face '" + face_ + "' of '") +
+           body_.name + "'";
   }
   std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
   /// Laws read the motion in the loop over rows only.
@@ -96,6 +98,7 @@ class SurfaceTerm : public ForceTerm {
  protected:
   const Body<D>& body_;
   L law_;
+  std::string face_;  // empty: the whole surface
   SurfaceRule<D> surface_;
   ChunkSums chunk_sums_;
 };

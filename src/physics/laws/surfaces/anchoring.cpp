@@ -36,11 +36,11 @@ Lanes dot(const Vectors& a, const Vectors& b) {
 template <int D>
 class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTerm {
  public:
-  Anchoring(const Body<D>& body, Real strength, bool polar, int points)
+  Anchoring(const Body<D>& body, Real strength, bool polar, const SurfaceSites& sites)
       : body_(body),
         strength_(strength),
         polar_(polar),
-        surface_(body, points, true),
+        surface_(body, sites, true),
         chunk_sums_(surface_.points.chunk_sums(body)),
         held_(static_cast<std::size_t>(surface_.groups())) {}
 
@@ -172,11 +172,11 @@ class AnchoringMaterial final : public SurfaceMaterial {
  public:
   explicit AnchoringMaterial(AnchoringKeys keys) : keys_(std::move(keys)) {}
 
-  std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const override {
-    return std::make_unique<Anchoring<2>>(body, keys_.strength, keys_.sense == "polar", points);
+  std::unique_ptr<ForceTerm> build(const Body<2>& body, const SurfaceSites& sites) const override {
+    return std::make_unique<Anchoring<2>>(body, keys_.strength, keys_.sense == "polar", sites);
   }
-  std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
-    return std::make_unique<Anchoring<3>>(body, keys_.strength, keys_.sense == "polar", points);
+  std::unique_ptr<ForceTerm> build(const Body<3>& body, const SurfaceSites& sites) const override {
+    return std::make_unique<Anchoring<3>>(body, keys_.strength, keys_.sense == "polar", sites);
   }
   /// The energy is per present area, so a remap does not change it.
   bool keeps_reference() const override { return false; }

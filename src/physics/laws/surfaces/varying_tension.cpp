@@ -35,12 +35,13 @@ struct VaryingTensionKeys {
 template <int D>
 class VaryingTension final : public ForceTerm, public VariedTension {
  public:
-  VaryingTension(const Body<D>& body, const Expression& gamma, bool of_place, int points)
+  VaryingTension(const Body<D>& body, const Expression& gamma, bool of_place,
+                 const SurfaceSites& sites)
       : body_(body),
         formula_(gamma),
         of_place_(of_place),
         changes_(of_place || gamma.depends_on_time()),
-        surface_(body, points, of_place),
+        surface_(body, sites, of_place),
         chunk_sums_(surface_.points.chunk_sums(body)) {
     now_.resize(surface_.reference.size());
     if (changes_) {
@@ -195,18 +196,18 @@ class VaryingTensionMaterial final : public SurfaceMaterial {
  public:
   explicit VaryingTensionMaterial(VaryingTensionKeys keys) : keys_(std::move(keys)) {}
 
-  std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const override {
-    return built(body, points);
+  std::unique_ptr<ForceTerm> build(const Body<2>& body, const SurfaceSites& sites) const override {
+    return built(body, sites);
   }
-  std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
-    return built(body, points);
+  std::unique_ptr<ForceTerm> build(const Body<3>& body, const SurfaceSites& sites) const override {
+    return built(body, sites);
   }
 
  private:
   template <int D>
-  std::unique_ptr<ForceTerm> built(const Body<D>& body, int points) const {
+  std::unique_ptr<ForceTerm> built(const Body<D>& body, const SurfaceSites& sites) const {
     return std::make_unique<VaryingTension<D>>(body, keys_.gamma.front(), keys_.of == "place",
-                                               points);
+                                               sites);
   }
 
   VaryingTensionKeys keys_;
