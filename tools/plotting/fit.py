@@ -34,7 +34,7 @@ def positive(kind):
 def arguments():
     parser = argparse.ArgumentParser(
         prog=style.COMMAND,
-        description="Finds the parameters with which runs of scenes agree best with measured data (meniscus help fit).",
+        description="Finds the parameters with which runs of scenes agree best with measured data (meniscus help measurements).",
     )
     parser.add_argument("file", metavar="FIT", type=pathlib.Path, help="file that names scenes, data and parameters (TOML)")
     parser.add_argument("--output", metavar="DIR", type=pathlib.Path, help="results/FIT-fit by default")

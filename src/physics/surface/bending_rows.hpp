@@ -17,8 +17,7 @@ namespace meniscus {
 template <int D>
 class BendingRows {
  public:
-  /// Throws InputError if the surface
-  /// of the body has edges or is made of flat facets.
+  /// Throws InputError if the surface of the body has edges or is made of flat facets.
   BendingRows(const Body<D>& body, const SurfaceSites& sites);
 
   Index size() const { return static_cast<Index>(area_.size()); }

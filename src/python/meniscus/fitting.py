@@ -338,7 +338,7 @@ def fit(
 ) -> Fit:
     """Finds the parameters with which runs of scenes agree best with measured data.
 
-    path: the TOML file that names scenes, data and parameters (`meniscus help fit`).
+    path: the TOML file that names scenes, data and parameters (`meniscus help measurements`).
     directory: keeps the values of all runs, so that a fit that was stopped goes on, and at the end the runs
         of the parameters that were found; by default `results/NAME-fit`.
     program: the program meniscus; by default the one that is found on the path.
