@@ -78,8 +78,8 @@ class Run {
   /// Makes steps until `time`, up to round-off, or the end of the scene is reached or passed.
   void advance_to(double time);
   /// From now on asked() is called before each step, and now and then within a step of `newton`. If
-  /// it returns true, advance() and advance_to() throw Interrupted; the state is then that of the
-  /// last complete step.
+  /// it returns true, advance() and advance_to() throw Interrupted, and the state is the one after
+  /// the last complete step.
   void stop_when(std::function<bool()> asked);
 
   /// Adds forces on the particles of a body from the present state on. A force acts at the position

@@ -23,7 +23,7 @@ struct ConvergeRequest {
 /// values, the observed order, the limit and its error bar, and the seconds to 1 % and 0.1 % of the
 /// limit. Writes the same to convergence.csv, and with `budget` the parts of the error of the scene
 /// itself to budget.csv. A signal stops it; the same command then continues it. Returns the exit
-/// code of a run that failed; exit_expectation if an order or error bar that the scene asks for is
+/// code of a run that failed; exit_expectation if an order or error bar of [expect] is
 /// missed, and otherwise 0. Throws InputError, FileError.
 int converge(const ConvergeRequest& request);
 

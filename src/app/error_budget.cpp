@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the parameters of a scene whose limit is meant contribute to its error.
+// Runs of a scene with other values of the parameters whose limit is meant.
 #include "app/error_budget.hpp"
 
 #include "meniscus/physics/law_registry.hpp"

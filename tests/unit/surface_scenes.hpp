@@ -3,10 +3,12 @@
 #pragma once
 #include "cases.hpp"
 #include "cells_reference.hpp"
+#include "meniscus/physics/surface_registry.hpp"
 #include "run/simulation.hpp"
 #include "support.hpp"
 
 #include <fmt/core.h>
+#include <gtest/gtest.h>
 
 #include <string>
 
@@ -29,6 +31,30 @@ inline std::string ball_of(int D, int core, int layers, Real radius = 1) {
 
 inline std::string law_of(const std::string& type, const std::string& numbers) {
   return "[[surface]]\nbody = \"b\"\n[surface.law]\ntype = \"" + type + "\"\n" + numbers;
+}
+
+/// The term of a surface law on a body, with Gauss points per direction and facet.
+template <int D>
+std::unique_ptr<ForceTerm> surface_term(const Body<D>& body, const std::string& type,
+                                        const std::string& numbers, int points = 3) {
+  const SceneInput input = SceneInput::from_text("[law]\n" + numbers);
+  const auto table = input.root().table("law");
+  auto law = surface_laws().at(type).read(*table);
+  input.check();
+  return law->build(body, points);
+}
+
+/// At random displacements up to `size`, the forces of a term are minus the gradient of its energy
+/// (differences with `step`), and have no net force and no net torque up to `balance`.
+template <int D>
+void expect_balanced_gradient(ForceTerm& term, const Body<D>& body, Real size, Real step,
+                              Real balance) {
+  const NodalVectors u = random_field<D>(body.size(), size, 3),
+                     way = random_field<D>(body.size(), 1, 8);
+  EXPECT_LT(gradient_error(term, u, way, step), 1e-8);
+  const Balance net = balance_of<D>(body, u, force_of(term, u));
+  EXPECT_LT(net.force, balance);
+  EXPECT_LT(net.torque, balance);
 }
 
 /// Stretch v of the first body at which a uniform dilation x = v X is in equilibrium: the virtual

@@ -20,11 +20,7 @@ using test::law_of;
 
 template <int D>
 std::unique_ptr<ForceTerm> bending_of(const Body<D>& body, const std::string& numbers = "") {
-  const SceneInput input = SceneInput::from_text("[law]\nbending_modulus = 1\n" + numbers);
-  const auto table = input.root().table("law");
-  auto law = surface_laws().at("helfrich").read(*table);
-  input.check();
-  return law->build(body, D == 3 ? 12 : 16);
+  return test::surface_term(body, "helfrich", "bending_modulus = 1\n" + numbers, D == 3 ? 12 : 16);
 }
 
 template <int D>
@@ -34,12 +30,7 @@ void expect_gradients() {
        {"", "spontaneous_curvature = 0.7\n", "natural = \"reference\"\n"}) {
     SCOPED_TRACE(numbers);
     const auto term = bending_of(*body, numbers);
-    const NodalVectors u = test::random_field<D>(body->size(), 0.01, 3),
-                       way = test::random_field<D>(body->size(), 1, 8);
-    EXPECT_LT(test::gradient_error(*term, u, way, 1e-4), 1e-8);
-    const test::Balance net = test::balance_of<D>(*body, u, test::force_of(*term, u));
-    EXPECT_LT(net.force, 1e-12);
-    EXPECT_LT(net.torque, 1e-12);
+    test::expect_balanced_gradient<D>(*term, *body, 0.01, 1e-4, 1e-12);
   }
 }
 
@@ -207,8 +198,9 @@ std::string on_face(const std::string& face, const std::string& type, const std:
          "\"\n" + numbers;
 }
 
-/// The side of a cylinder of the height h has pi kappa h/R, and the energy of a membrane on it is
-/// that of its area alone, up to the area of the reference by three points per direction.
+/// The side of a cylinder of height h has the energy pi kappa h/R. The energy of a membrane on it
+/// depends on the area of the side alone. The reference has this area up to the error of three
+/// points per direction.
 TEST(Bending, LawsActOnFacesAlone) {
   const Scene<3> scene =
       test::scene_of<3>(cylinder(on_face("side", "helfrich", "bending_modulus = 1\n") +

@@ -15,17 +15,6 @@ namespace {
 
 using test::law_of;
 
-/// The term of a law on a single body.
-template <int D>
-std::unique_ptr<ForceTerm> term_of(const Body<D>& body, const std::string& type,
-                                   const std::string& numbers) {
-  const SceneInput input = SceneInput::from_text("[law]\n" + numbers);
-  const auto table = input.root().table("law");
-  auto law = surface_laws().at(type).read(*table);
-  input.check();
-  return law->build(body, 3);
-}
-
 /// A law, and its energy per reference area at the principal stretches a, b as it is published.
 struct Membrane {
   std::string type, numbers;
@@ -60,13 +49,8 @@ void expect_gradients() {
                                                                   : std::vector<Real>{4, 3}))})
     for (const Membrane& membrane : membranes()) {
       SCOPED_TRACE(membrane.type);
-      const auto term = term_of(*body, membrane.type, membrane.numbers);
-      const NodalVectors u = test::random_field<D>(body->size(), 0.03, 3),
-                         way = test::random_field<D>(body->size(), 1, 8);
-      EXPECT_LT(test::gradient_error(*term, u, way, 2e-4), 1e-8);
-      const test::Balance net = test::balance_of<D>(*body, u, test::force_of(*term, u));
-      EXPECT_LT(net.force, 1e-13);
-      EXPECT_LT(net.torque, 1e-13);
+      const auto term = test::surface_term(*body, membrane.type, membrane.numbers);
+      test::expect_balanced_gradient<D>(*term, *body, 0.03, 2e-4, 1e-13);
     }
 }
 
@@ -84,8 +68,8 @@ TEST(Membranes, UniformStretchesHaveThePublishedEnergy) {
   R << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1;
   for (const Membrane& membrane : membranes()) {
     SCOPED_TRACE(membrane.type);
-    const auto term = term_of(*brick, membrane.type, membrane.numbers),
-               flat = term_of(*plate, membrane.type, membrane.numbers);
+    const auto term = test::surface_term(*brick, membrane.type, membrane.numbers),
+               flat = test::surface_term(*plate, membrane.type, membrane.numbers);
     for (const auto& stretch : {std::array{1.3, 1.3, 1.3},
                                 {1.5, 0.8, 1.1},
                                 {1 + 1e-5, 1.0, 1.0},
@@ -116,7 +100,7 @@ TEST(Membranes, SmallStrainsHaveTheNamedModuli) {
   for (const auto& [type, numbers, G, K] :
        {std::tuple("skalak", "shear_modulus = 0.3\nC = 1\n", 0.3, 0.9),
         {"evans_skalak", "shear_modulus = 0.3\narea_modulus = 0.7\n", 0.3, 0.7}}) {
-    const auto term = term_of(*brick, type, numbers);
+    const auto term = test::surface_term(*brick, type, numbers);
     const auto energy = [&](Real a, Real b) {
       return test::energy_of(*term, test::field_on<3>(*brick, [&](const Vec<3>& X) -> Vec<3> {
         return {a * X[0], b * X[1], 0};
@@ -133,7 +117,7 @@ TEST(Membranes, SmallStrainsHaveTheNamedModuli) {
 TEST(Membranes, ABarrierKeepsTheArea) {
   const auto brick = test::body_of<3>(test::brick<3>({2, 2, 2}));
   for (const Membrane& membrane : membranes()) {
-    const auto term = term_of(*brick, membrane.type, membrane.numbers);
+    const auto term = test::surface_term(*brick, membrane.type, membrane.numbers);
     const auto energy = [&](Real stretch) {
       return test::energy_of(*term, test::field_on<3>(*brick, [&](const Vec<3>& X) {
         return Vec<3>((stretch - 1) * X);
@@ -190,7 +174,7 @@ TEST(Membranes, SpheresHaveThePressureOfTheirTension) {
                                              ball + law_of(membrane.type, membrane.numbers));
     const NodalVectors X_of_plane =
         test::field_on<2>(scene.system.bodies.front(), [](const Vec<2>& place) { return place; });
-    const auto term = term_of(*body, membrane.type, membrane.numbers);
+    const auto term = test::surface_term(*body, membrane.type, membrane.numbers);
     for (const Real v : {0.9, 1.02, 1.3, 2.0}) {
       const Real exact = 2 * membrane.slope(v, v) / (v * v);
       const auto pressure = [&](ForceTerm& of, const NodalVectors& place) {

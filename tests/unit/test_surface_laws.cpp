@@ -16,17 +16,6 @@ namespace {
 
 using test::law_of;
 
-/// The term of a law on a single body.
-template <int D>
-std::unique_ptr<ForceTerm> term_of(const Body<D>& body, const std::string& type,
-                                   const std::string& numbers) {
-  const SceneInput input = SceneInput::from_text("[law]\n" + numbers);
-  const auto table = input.root().table("law");
-  auto law = surface_laws().at(type).read(*table);
-  input.check();
-  return law->build(body, 3);
-}
-
 template <int D>
 void expect_gradients() {
   for (const auto& body : {test::body_of<D>(test::potato<D>()),
@@ -37,13 +26,8 @@ void expect_gradients() {
                                         {"neo_hookean_skin", "lambda = 0.4\nmu = 0.3\n"},
                                         {"varying_tension", "gamma = \"1 + 0.3*x - 0.2*x*y\"\n"}}) {
       SCOPED_TRACE(type);
-      const auto term = term_of(*body, type, numbers);
-      const NodalVectors u = test::random_field<D>(body->size(), 0.03, 3),
-                         way = test::random_field<D>(body->size(), 1, 8);
-      EXPECT_LT(test::gradient_error(*term, u, way, 2e-4), 1e-8);
-      const test::Balance net = test::balance_of<D>(*body, u, test::force_of(*term, u));
-      EXPECT_LT(net.force, 1e-13);
-      EXPECT_LT(net.torque, 1e-13);
+      const auto term = test::surface_term(*body, type, numbers);
+      test::expect_balanced_gradient<D>(*term, *body, 0.03, 2e-4, 1e-13);
     }
 }
 
@@ -59,7 +43,7 @@ TEST(SurfaceLaws, EnergiesAreThoseOfStrainAlone) {
   R << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1;
   G << 1.1, 0.2, -0.1, 0.05, 0.9, 0.1, 0, -0.15, 1.05;
   for (const auto& type : {"gurtin_murdoch", "neo_hookean_skin"}) {
-    const auto term = term_of(*body, type, "lambda = 0.4\nmu = 0.3\n");
+    const auto term = test::surface_term(*body, type, "lambda = 0.4\nmu = 0.3\n");
     const auto moved = [&](const Mat<3>& F) {
       return test::field_on<3>(*body, [&](const Vec<3>& X) { return Vec<3>(F * X - X); });
     };
@@ -81,7 +65,8 @@ void expect_viscosity() {
     else
       return test::disk(6, 3);
   }());
-  const auto term = term_of(*body, "boussinesq_scriven", "shear = 0.05\ndilatational = 0.1\n");
+  const auto term =
+      test::surface_term(*body, "boussinesq_scriven", "shear = 0.05\ndilatational = 0.1\n");
   const NodalVectors u = test::field_on<D>(*body, [](const Vec<D>& X) {
     Vec<D> w = 0.1 * X;
     w[0] += 0.2 * std::sin(2 * X[1]);

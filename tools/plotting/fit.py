@@ -19,6 +19,7 @@ import package  # noqa: F401  pylint: disable=unused-import
 import style
 
 from meniscus import FileError, InputError, SolveError, errors, fitting  # isort: skip
+from meniscus.fit_model import OutOfReach  # isort: skip
 
 
 def positive(kind):
@@ -125,7 +126,7 @@ if __name__ == "__main__":
         outside.end(style.COMMAND, error, 3)
     except SolveError as error:
         outside.end(style.COMMAND, error, 4)
-    except fitting.OutOfReach as error:
+    except OutOfReach as error:
         outside.end(style.COMMAND, f"{error}; expected is a run that reaches all of them from the start", 3)
     except (FileError, OSError) as error:
         outside.end(style.COMMAND, error, 5)
