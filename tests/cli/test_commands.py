@@ -151,16 +151,23 @@ class Sweep(ProgramTest):
         scene = self.scene(DROP)
         call = ["sweep", scene, "--set", "body.drop.material.viscosity=0.6 mPa s,0.7 mPa s,0.8 mPa s", "--threads", "1"]
         self.call(*call, "--output", "one")
-        process = self.start(*call, "--output", "three", "--parallel", "3")
-        histories = [self.directory / "three" / f"viscosity=0.{k}_mPa_s" / "history.csv" for k in (6, 7, 8)]
-        while not all(h.exists() and h.read_text().count("\n") > 5 for h in histories):
+        self.scene(DROP.replace('end = "60 ps"', 'end = "60 ns"'), "long")  # is never finished
+        self.stop(["sweep", "long.toml", *call[2:]], "long", all)
+        self.assertEqual([r["exit_code"] for r in self.table("long/sweep.csv")[0]], ["143"] * 3)
+        self.stop(call, "three", any)
+        self.assertIn("143", [r["exit_code"] for r in self.table("three/sweep.csv")[0]])
+        self.call(*call, "--output", "three", "--parallel", "2")
+        self.assertEqual(self.results("three"), self.results("one"))
+
+    def stop(self, call, output, begun):
+        """Stops three runs at the same time when any of them, or all, have written records."""
+        process = self.start(*call, "--output", output, "--parallel", "3")
+        histories = [self.directory / output / f"viscosity=0.{k}_mPa_s" / "history.csv" for k in (6, 7, 8)]
+        while not begun(h.exists() and h.read_text().count("\n") > 3 for h in histories):
             time.sleep(0.02)
         process.send_signal(signal.SIGTERM)
         said, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 128 + signal.SIGTERM, said)
-        self.assertEqual([r["exit_code"] for r in self.table("three/sweep.csv")[0]], ["143"] * 3)
-        self.call(*call, "--output", "three", "--parallel", "2")
-        self.assertEqual(self.results("three"), self.results("one"))
 
     def test_a_failing_run_does_not_stop_the_others(self):
         scene = self.scene(BLOCK + '[expect]\nslow = { of = "kinetic_energy", value = 0, within = 1e-3 }\n')
