@@ -1,4 +1,4 @@
-# Every scene of inputs/ is a test (label scene). It is checked, and run if its first line is one of
+# Every scene of inputs/ that shows a field is a test (label scene). It is checked, and run if its first line is one of
 #   # test: full                run unchanged
 #   # test: short OPTION...     run with options of `meniscus run`, e.g. --until 0.02ns
 # tools/verify runs the other scenes in full (label verify, configuration full). For each line of the
@@ -6,7 +6,7 @@
 #   # verify NAME: OPTION...
 # A test passes by the exit code of the program; 7 means a missed expectation of the scene.
 
-file(GLOB scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/inputs/*.toml)
+meniscus_scenes(scenes)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${scenes})
 # Each test uses one thread, and several tests run at once. Results do not depend on threads.
 set(scene_environment OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1)

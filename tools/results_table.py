@@ -11,6 +11,8 @@ import re
 import sys
 import tomllib
 
+import shipped
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.dont_write_bytecode = True
 sys.path.append(str(ROOT / "tools" / "plotting"))
@@ -62,10 +64,10 @@ def call_of(log):
 def scene_of(log, folder):
     """File of the scene of a run. Raises ValueError if it is not in inputs/."""
     named = re.search(r"(\w+)\.toml", call_of(log))
-    scene = ROOT / "inputs" / f"{named.group(1) if named else folder.name}.toml"
-    if not scene.is_file():
-        raise ValueError(f"{folder} is no run of a scene of inputs/")
-    return scene
+    try:
+        return shipped.scene(named.group(1) if named else folder.name)
+    except ValueError as error:
+        raise ValueError(f"{folder} is no run of a scene of inputs/") from error
 
 
 def rows_of_run(folder):
@@ -105,7 +107,7 @@ def main():
             rows = [row for row in rows if row[0] != scene or row[1] not in names] + renewed
     except (OSError, ValueError) as error:
         sys.exit(f"results_table.py: {error}")
-    wanted = {scene: list(asked(ROOT / "inputs" / f"{scene}.toml")) for scene in scenes}
+    wanted = {scene: list(asked(shipped.scene(scene))) for scene in scenes}
     rows = [row for row in rows if row[1] in wanted[row[0]]]
     rows.sort(key=lambda row: (scenes.index(row[0]), wanted[row[0]].index(row[1])))
     lines = [f"| `{scene}` | `{name}` | {' | '.join(numbers)} |\n" for scene, name, *numbers in rows]

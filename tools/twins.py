@@ -17,7 +17,8 @@ import subprocess
 import time
 from pathlib import Path
 
-INPUTS = Path(__file__).resolve().parents[1] / "inputs"
+import shipped
+
 ROW = re.compile(r"^(\S+) +(\S+) +(\S+) +(\S+)  (met|MISSED)$", re.MULTILINE)
 
 
@@ -66,7 +67,7 @@ def twin_of(program, name, directory):
     """The file of the twin of a scene; None if it has none."""
     twin = directory / f"{name}.toml"
     if not twin.exists():
-        done = call(program, "revolve", INPUTS / f"{name}.toml", twin)
+        done = call(program, "revolve", shipped.scene(name), twin)
         if done.returncode != 0:
             return None
         twin.with_suffix(".said").write_text(done.stdout, encoding="utf-8")
@@ -79,7 +80,7 @@ def row_of(program, name, directory):
     if twin is None:
         return None
     plane, space = re.search(r"has (\d+) particles instead of (\d+)", twin.with_suffix(".said").read_text()).groups()
-    (seconds, results), (less, of_twin) = (run(program, INPUTS / f"{name}.toml", directory / f"{name}-space"),
+    (seconds, results), (less, of_twin) = (run(program, shipped.scene(name), directory / f"{name}-space"),
                                            run(program, twin, directory / f"{name}-plane"))
     met = ["{} of {}".format(sum(mark == "met" for *_, mark in r.values()), len(r)) for r in (results, of_twin)]
     where, most = difference(results, of_twin)
@@ -107,7 +108,7 @@ def draw_levels(program, directory):
         limit = at(twin, in_plane, finest, "plane")[1]
         curves = {"in space": [], "in the half plane": []}
         for level in levels:
-            for where, (scene, keys) in zip(curves, ((INPUTS / f"{name}.toml", in_space), (twin, in_plane))):
+            for where, (scene, keys) in zip(curves, ((shipped.scene(name), in_space), (twin, in_plane))):
                 seconds, value = at(scene, keys, level, where.split()[-1])
                 curves[where].append((seconds, abs(value / limit - 1)))
             (space, plane) = (curve[-1] for curve in curves.values())
@@ -132,8 +133,8 @@ def main():
     if given.levels:
         draw_levels(program, directory)
         return
-    scenes = given.scenes or sorted(
-        path.stem for path in INPUTS.glob("*.toml") if re.search(r"^dimension = 3", path.read_text(), re.MULTILINE))
+    scenes = given.scenes or (
+        path.stem for path in shipped.scenes() if re.search(r"^dimension = 3", path.read_text(), re.MULTILINE))
     print("| scene | particles | time (s) | ratio | met in 3D | in the half plane | largest difference / allowed |\n"
           "|---|---|---|---|---|---|---|", flush=True)
     for name in scenes:

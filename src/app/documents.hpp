@@ -17,7 +17,7 @@ struct Document {
 std::span<const Document> guide_topics();
 /// The scenes of inputs/, by name.
 std::span<const Document> gallery_scenes();
-/// The mesh files that these scenes read, inputs/meshes/NAME.msh.
+/// The mesh files that these scenes read, inputs/FIELD/meshes/NAME.msh.
 std::span<const Document> gallery_meshes();
 
 /// The directory tools/plotting in the source tree from which this program was built.

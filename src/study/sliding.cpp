@@ -17,7 +17,7 @@
 namespace meniscus::sliding_study {
 namespace {
 
-/// The law of inputs/sliding_half_discs.toml, R0 = E0 = 1.
+/// The law of inputs/contact/sliding_half_discs.toml, R0 = E0 = 1.
 ContactLaw law() {
   ContactLaw law;
   law.kernel = PairKernel::integrated;

@@ -120,7 +120,7 @@ void add_impact_case(const std::string& name, Real gap) {
            [gap](benchmark::State& state) {
              const Real centre = -3 + 0.2 * gap;
              const SceneInput input = SceneInput::from_file(
-                 MENISCUS_SOURCE_DIR "/inputs/cylinder_impact.toml",
+                 MENISCUS_SOURCE_DIR "/inputs/contact/cylinder_impact.toml",
                  {fmt::format("body.left.centre=[{}, 0]", centre),
                   fmt::format("body.right.centre=[{}, 0]", centre + 2 + 0.2 * gap)});
              scene_dimension(input);
@@ -180,9 +180,9 @@ void add_contact_cases() {
   for (const char* form : {"energy", "pressure", "dissertation", "volume"}) add_form_case(form);
   add_impact_case("touching", 0.64);
   add_impact_case("apart", 4.5);
-  add_contact_step("spinning_collision, at the least gap", "spinning_collision.toml",
+  add_contact_step("spinning_collision, at the least gap", "contact/spinning_collision.toml",
                    {"body.one.centre=[-1.1, 0, 0]", "body.two.centre=[1.1, 0, 0]"});
-  add_contact_step("pull_off, the plate 0.06 away", "pull_off.toml",
+  add_contact_step("pull_off, the plate 0.06 away", "contact/pull_off.toml",
                    {"contact.tip.partner.point=[0, 0, 1.06]"});
   const ContactLaw space;
   const Vec<3> o = Vec<3>::Zero(), x = Vec<3>::UnitX();

@@ -418,7 +418,7 @@ displacement = ["0.1*sin(20*t)^2", "t < 0.03 ? -0.4*t : -0.012"]
         """The gallery shows the last frame of a run, named by its scene, whatever the directory is called."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            scene = ROOT / "inputs/spinning_ball.toml"
+            scene = ROOT / "inputs/solids/spinning_ball.toml"
             subprocess.run([PROGRAM, "run", "-q", scene, "--output", folder / "run", "--until", "1e-9"], check=False)
             call = ["/usr/bin/python3", "-B", ROOT / "tools/gallery.py", "--pictures", folder]
             done = subprocess.run([*call, folder / "run"], capture_output=True, text=True)

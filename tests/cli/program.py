@@ -11,6 +11,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "tools"))
+import shipped  # noqa: E402, F401  pylint: disable=wrong-import-position,unused-import
+
 PROGRAM = None
 ENVIRONMENT = {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": "2"}
 

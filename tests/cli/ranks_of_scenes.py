@@ -11,8 +11,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from program import ENVIRONMENT
-from test_ranks import INPUTS, MPIRUN, RANKS_ENVIRONMENT
+from program import ENVIRONMENT, shipped
+from test_ranks import MPIRUN, RANKS_ENVIRONMENT
 
 SINGLE = {**ENVIRONMENT, "OMP_NUM_THREADS": "1"}
 # Allowed exit codes: a shortened run may miss an expectation (7).
@@ -59,7 +59,7 @@ def differences(program, scene, options, directory):
 
 def main():
     program, names = sys.argv[1], sys.argv[2:]
-    scenes = [INPUTS / f"{name}.toml" for name in names] or sorted(INPUTS.glob("*.toml"))
+    scenes = [shipped.scene(name) for name in names] or shipped.scenes()
     failed = 0
     for scene in scenes:
         options = options_of(scene)

@@ -10,15 +10,14 @@ from decimal import Decimal
 from pathlib import Path
 
 import program
-from program import ProgramTest
+from program import ProgramTest, shipped
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
-sys.path.append(str(ROOT / "tools"))
 import results_table  # noqa: E402  pylint: disable=wrong-import-position
 
 README, GALLERY = ROOT / "README.md", ROOT / "inputs" / "README.md"
-SCENES = sorted(path.stem for path in (ROOT / "inputs").glob("*.toml"))
+SCENES = [path.stem for path in shipped.scenes()]
 DOCUMENTS = [README, GALLERY, ROOT / "tests" / "README.md", ROOT / "src" / "README.md",
              *sorted((ROOT / "inputs" / "guide").glob("*.md")), *sorted((ROOT / "src" / "theory").glob("*.md")),
              *sorted((ROOT / ".github").glob("*.md"))]  # fmt: skip
@@ -39,8 +38,11 @@ class Documents(ProgramTest):
         self.assertLessEqual(len(text_of(README).splitlines()), 200)
 
     def test_every_scene_is_in_both_galleries(self):
-        lines = re.findall(r"^\| `(\w+)` \| [^|]+ \|$", text_of(README), re.MULTILINE)
-        self.assertEqual(sorted(lines), SCENES)
+        rows = re.findall(r"^\| \[[\w ]+\]\(inputs/(\w+)\) \| (.+) \|$", text_of(README), re.MULTILINE)
+        self.assertEqual([field for field, _ in rows], list(shipped.FIELDS))
+        for field, text in rows:
+            scenes = sorted(path.stem for path in (shipped.INPUTS / field).glob("*.toml"))
+            self.assertEqual(sorted(re.findall(r"`(\w+)`", text)), scenes)
         self.assertEqual(sorted(results_table.gallery(text_of(GALLERY))), SCENES)
 
     def test_every_scene_has_a_picture(self):
@@ -51,7 +53,7 @@ class Documents(ProgramTest):
         rows = results_table.rows_of_table(text_of(GALLERY))
         self.assertGreater(len(rows), 250)
         for scene, name, expected, within, obtained in rows:
-            wanted = results_table.asked(ROOT / "inputs" / f"{scene}.toml")
+            wanted = results_table.asked(shipped.scene(scene))
             self.assertIn(wanted.get(name, ""), (None, (expected, within)), f"{scene}: {name}")
             self.assertLessEqual(abs(float(obtained) - float(expected)), float(within) * 1.001, f"{scene}: {name}")
 
@@ -88,7 +90,7 @@ class ResultsTable(ProgramTest):
 
     def test_rows_are_renewed(self):
         """Only rows of results that the run has reached are renewed."""
-        scene = ROOT / "inputs" / "ellipsoid_drop.toml"
+        scene = shipped.scene("ellipsoid_drop")
         self.call("run", scene, "--output", "out", "--until", "1 ps", "--quiet")
         before = self.table()
         self.assertEqual(self.table("out"), before)  # the run reaches no result
@@ -109,7 +111,7 @@ class ResultsTable(ProgramTest):
         self.call("run", self.scene(program.SHEET, "nobodys"), "--output", "out", "--until", "1e-3")
         self.assertIn("no run of a scene", self.table("out", code=1))
         self.assertIn("run.log", self.table("nowhere", code=1))
-        self.call("run", ROOT / "inputs" / "drop_2d.toml", "--output", "changed", "--until", "1e-3",
+        self.call("run", shipped.scene("drop_2d"), "--output", "changed", "--until", "1e-3",
                   "--set", "body.drop.core=3", "--quiet")
         self.assertIn("changed by --set", self.table("changed", code=1))
 

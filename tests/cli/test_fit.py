@@ -77,7 +77,7 @@ def tension(stretch, mu, lame):
 
 def oscillation(t, nu, gamma, mode=2, terms=24):
     """Amplitude a(t)/a(0) of a plane drop of radius and density 1 that begins at rest: the equations in
-    inputs/drop_2d.toml, whose Laplace transform is inverted on the contour of Talbot."""
+    inputs/drops/drop_2d.toml, whose Laplace transform is inverted on the contour of Talbot."""
     total = 0
     for j in range(terms):
         angle = (2 * j + 1) * np.pi / (2 * terms)
@@ -156,7 +156,7 @@ class Fit(ProgramTest):
         for name in ("drop_2d.toml", "fits/drop_oscillation.csv"):
             (self.directory / name).parent.mkdir(exist_ok=True)
             (self.directory / name).write_text((INPUTS / name).read_text())
-        text = (INPUTS / "fits/drop_oscillation.toml").read_text().replace("../drop_2d", "drop_2d").replace('"drop_osc', '"fits/drop_osc')
+        text = (INPUTS / "fits/drop_oscillation.toml").read_text().replace("../drops/drop_2d", "drop_2d").replace('"drop_osc', '"fits/drop_osc')
         coarse = 'set = { "body.drop.core" = 6, "body.drop.rings" = 3 }\n\n[[scene.curve]]'
         found, _, _ = self.fit(text.replace("[[scene.curve]]", coarse))
         for name, true in (("gamma", 1.0), ("viscosity", 0.1)):

@@ -15,10 +15,9 @@ import h5py
 
 import program
 from hostile_files import set_text
-from program import (BLOCK, DROP, ENVIRONMENT, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of,
+from program import (BLOCK, DROP, ENVIRONMENT, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, shipped, state_of,
                      with_output)
 
-INPUTS = Path(__file__).resolve().parents[2] / "inputs"
 # As many ranks as we like on any machine, which leave the processor to others while they wait.
 MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n"]
 RANKS_ENVIRONMENT = {**ENVIRONMENT, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -343,7 +342,7 @@ class SameBits(RanksTest):
     def test_partners_beside_shared_points(self):
         """Two contacts of a body use the same points; a rank may have points near one of them only. Their sums
         are added in the same order as in one process."""
-        self.assert_same_bits((2,), INPUTS / "pull_off.toml", "--until", "1")
+        self.assert_same_bits((2,), shipped.scene("pull_off"), "--until", "1")
 
     def test_small_bodies(self):
         """Small bodies lie on one rank each, if no rank then has much more than the others."""
@@ -428,15 +427,15 @@ class SameBits(RanksTest):
 
     def test_contact_without_some_ranks(self):
         """Beside a rigid partner, a rank knows only its own points, and may have none."""
-        self.assert_same_bits((3,), INPUTS / "adhesion_cycle.toml", "--until", "0.75")
-        self.assert_same_bits((3,), INPUTS / "droplet_friction.toml", "--until", "0.5", "--overwrite")
+        self.assert_same_bits((3,), shipped.scene("adhesion_cycle"), "--until", "0.75")
+        self.assert_same_bits((3,), shipped.scene("droplet_friction"), "--until", "0.5", "--overwrite")
 
     def test_scenes(self):
         for name, (scene, *options) in SCENES.items():
             with self.subTest(name):
                 self.directory = self.directory / scene
                 self.directory.mkdir()
-                self.assert_same_bits((2,), INPUTS / f"{scene}.toml", *options)
+                self.assert_same_bits((2,), shipped.scene(scene), *options)
                 if scene == "nematic_drop":
                     self.assertIn("on all particles because of the field 'director'",
                                   self.log("ranks2"))

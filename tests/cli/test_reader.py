@@ -11,7 +11,7 @@ import meshio
 import numpy as np
 
 import program
-from program import BLOCK, REMAPPED_DROP, SHEET, ProgramTest, with_output
+from program import BLOCK, REMAPPED_DROP, SHEET, ProgramTest, shipped, with_output
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
@@ -194,7 +194,7 @@ class Measures(ProgramTest):
                            "kinetic_energy": "J", "principal_extent_1": "m", "aspect": "1", "gap": "m",
                            "isoperimetric": "1", "ridge_height": "m", "pole_thickness": "m"}.items():
             self.assertEqual(listed.get(name), unit, name)
-        for path in sorted((ROOT / "inputs").glob("*.toml")):
+        for path in shipped.scenes():
             scene = tomllib.loads(path.read_text(encoding="utf-8"))
             used = set(scene.get("output", {}).get("measures", []))
             used |= {e.get("of", name) for name, e in scene.get("expect", {}).items()}

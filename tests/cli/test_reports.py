@@ -9,13 +9,12 @@ import re
 import select
 import subprocess
 import tomllib
-from pathlib import Path
 
 import h5py
 import numpy as np
 
 import program
-from program import BLOCK, DROP, ENVIRONMENT, RELAXING_SHEET, SHEET, ProgramTest, state_of, with_output
+from program import BLOCK, DROP, ENVIRONMENT, RELAXING_SHEET, SHEET, ProgramTest, shipped, state_of, with_output
 
 FIELDS = {"displacement": (3, "m"), "velocity": (3, "m/s"), "force": (3, "N"), "J": (1, "1"),
           "F": (9, "1"), "pressure": (1, "Pa"), "von_mises": (1, "Pa"), "cauchy_stress": (9, "Pa")}
@@ -680,7 +679,7 @@ class Reports(ProgramTest):
     def test_schema(self):
         """Every scene of inputs/ satisfies the schema. Misspelt keys, wrong types and wrong signs violate it."""
         schema = json.loads(self.call("keys", "--json").stdout)
-        for path in sorted((Path(__file__).resolve().parents[2] / "inputs").glob("*.toml")):
+        for path in shipped.scenes():
             self.assertEqual(list(violations(schema, tomllib.loads(path.read_text()))), [], path.name)
         for old, new, what in (("check_every", "check_evry", "time: check_evry"),
                                ("dimension = 3", 'dimension = [3]', "dimension: type"),

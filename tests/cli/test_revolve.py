@@ -8,9 +8,9 @@ import unittest
 from pathlib import Path
 
 import program
-from program import DROP, ProgramTest
+from program import DROP, ProgramTest, shipped
 
-INPUTS = Path(__file__).resolve().parents[2] / "inputs"
+ROOT = Path(__file__).resolve().parents[2]
 program.ENVIRONMENT["OMP_NUM_THREADS"] = "1"
 
 # A ball of rubber between two plates that close, about an axis through (1, 2, 0); %s: along it.
@@ -61,7 +61,7 @@ class Revolve(ProgramTest):
                      "droplet_on_ball droplet_on_soft_layer_3d pressurised_sphere rbc_deflate first_ball_on_wall "
                      "drop_small_oh093").split():
             with self.subTest(name):
-                self.call("revolve", INPUTS / f"{name}.toml", f"{name}.toml")
+                self.call("revolve", shipped.scene(name), f"{name}.toml")
                 printed = self.call("run", f"{name}.toml", "--output", name).stdout
                 self.assertIn(" met", printed)
 
@@ -120,7 +120,7 @@ class Revolve(ProgramTest):
 
     def test_twins_have_as_many_cells_by_default(self):
         """The defaults of shapes in the plane are finer than those of 3D shapes."""
-        scene = re.search(r"```toml\n(.*?)```", (INPUTS.parent / "README.md").read_text(), re.DOTALL)[1]
+        scene = re.search(r"```toml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[1]
         self.assertNotIn("core", scene)
         twin = self.twin(scene)
         for line in ('shape = "ellipse"', "core = 10", "rings = 5"):

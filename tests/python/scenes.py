@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Small scenes for the tests of the package."""
 import copy
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tools"))
+import shipped  # noqa: E402, F401  pylint: disable=wrong-import-position,unused-import
+
 DROP = ROOT / "tests/data/drop.toml"
 
 # An elastic sheet in 2D with a mass of 2000 kg per metre of depth.

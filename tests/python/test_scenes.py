@@ -11,19 +11,19 @@ from pathlib import Path
 import numpy as np
 
 import meniscus
-from scenes import DROP, ROOT, SHEET, sheet
+from scenes import DROP, SHEET, sheet, shipped
 
 
 class Scenes(unittest.TestCase):
     def test_every_scene_of_the_gallery_is_written_back(self):
-        scenes = sorted((ROOT / "inputs").glob("*.toml"))
+        scenes = shipped.scenes()
         self.assertGreater(len(scenes), 40)
         for path in scenes:
             scene = tomllib.loads(path.read_text(encoding="utf-8"))
             self.assertEqual(tomllib.loads(meniscus.to_toml(scene)), scene, path.name)
 
     def test_a_dictionary_runs_as_its_file_does(self):
-        for path in (DROP, ROOT / "inputs/tension_test.toml"):
+        for path in (DROP, shipped.scene("tension_test")):
             scene = tomllib.loads(path.read_text(encoding="utf-8"))
             runs = meniscus.Run(path), meniscus.Run(scene), meniscus.Run.from_text(path.read_text(encoding="utf-8"))
             for run in runs:

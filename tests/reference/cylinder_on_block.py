@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A cylinder pressed on a block in plane strain, both soft, with adhesion: the reference curves of
-inputs/cylinder_indentation.toml, by finite elements that share no code with the program.
+inputs/contact/cylinder_indentation.toml, by finite elements that share no code with the program.
 
 Quadrilaterals of second order (nine nodes, 3 x 3 Gauss points), the neo-Hookean law mu/2 (I1 - 3 - 2 ln J)
 + lambda/2 (J - 1)^2, contact as the double sum of u(r) n1.n2 over Gauss points of both surfaces (CGCM note,

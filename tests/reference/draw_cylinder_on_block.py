@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a run of inputs/cylinder_indentation.toml over the output of cylinder_on_block.py (with
+"""Draws a run of inputs/contact/cylinder_indentation.toml over the output of cylinder_on_block.py (with
 --pressure 0.4): force and gap against depth, and the pressure along the block at the depth 0.4 with
 Hertz's pressure.
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A spherical capsule of radius 1 with a membrane of Skalak (G = C = 1) and a fixed volume, stretched
 along its axis by a dead load f cos(theta) per area of the reference: the references of
-tests/unit/test_membranes.cpp and of inputs/axisymmetric_capsule.toml.
+tests/unit/test_membranes.cpp and of inputs/cells/axisymmetric_capsule.toml.
 
 The meridian r(theta), z(theta) is a sum of harmonics that are symmetric about the equator. Newton's
 method finds the stationary point of membrane energy - work of the load - p (volume - 4 pi/3), with

@@ -343,9 +343,10 @@ TEST(MeshBodies, HaveThePressureOfYoungAndLaplace) {
 
 /// Row sums of tetrahedra made by tools/mesh: few or no particles need the floor of the masses.
 TEST(MeshBodies, OfCgalHaveRowSumsNearTheirCells) {
-  for (const auto& [name, least] : {std::pair("ball_tetrahedra", 0.2), {"red_cell", 0.3}}) {
-    const auto body = test::body_of<3>(test::geometry_of_file<3>(
-        fmt::format("{}/../../inputs/meshes/{}.msh", MENISCUS_TEST_DATA, name)));
+  for (const auto& [name, least] :
+       {std::pair("drops/meshes/ball_tetrahedra", 0.2), {"cells/meshes/red_cell", 0.3}}) {
+    const auto body = test::body_of<3>(
+        test::geometry_of_file<3>(fmt::format("{}/../../inputs/{}.msh", MENISCUS_TEST_DATA, name)));
     const std::vector<Real> sums = shape_integrals(*body);
     for (Index A = 0; A < body->size(); ++A)
       EXPECT_GT(at(sums, A), least * body->cells.volume(A)) << name << " " << A;

@@ -48,13 +48,13 @@ std::vector<Vec<2>> profile() {
   return outline(low);
 }
 
-/// Tests inputs/sessile_drop.toml with other settings of [time].
+/// Tests inputs/wetting/sessile_drop.toml with other settings of [time].
 void expect_profile(const std::vector<std::string>& settings) {
   const std::vector<Vec<2>> exact = profile();
   const Real height = exact.back()[1];
   EXPECT_NEAR(height, 1.12208, 1e-3);
   const SceneInput input =
-      SceneInput::from_file(MENISCUS_SOURCE_DIR "/inputs/sessile_drop.toml", settings);
+      SceneInput::from_file(MENISCUS_SOURCE_DIR "/inputs/wetting/sessile_drop.toml", settings);
   scene_dimension(input);
   Scene<2> scene = build_scene<2>(input);
   Simulation<2> simulation(scene);
@@ -93,11 +93,11 @@ TEST(SessileDrop, FlowsToTheProfileOfBashforthAndAdams) {
 }
 
 /// Slope of A/(pi R^2) against t/t_in in 0.05 < t/t_in < 0.8 for the drop of
-/// inputs/droplet_spreading.toml, and r^2 of the line.
+/// inputs/wetting/droplet_spreading.toml, and r^2 of the line.
 std::pair<Real, Real> early_growth(const std::string& viscosity) {
   constexpr Real inertial_time = 41.437, radius = 5;
   const SceneInput input =
-      SceneInput::from_file(MENISCUS_SOURCE_DIR "/inputs/droplet_spreading.toml",
+      SceneInput::from_file(MENISCUS_SOURCE_DIR "/inputs/wetting/droplet_spreading.toml",
                             {"body[0].material.viscosity=\"" + viscosity + "\""});
   scene_dimension(input);
   Scene<3> scene = build_scene<3>(input);
@@ -156,7 +156,7 @@ struct LinearLayer {
 TEST(SoftLayer, HasTheRidgeOfLineForcesOnALinearLayer) {
   for (const auto& layer : {LinearLayer{1, 0.45, 4}, LinearLayer{0.4, 0.45, 2}}) {
     const SceneInput input = SceneInput::from_file(
-        MENISCUS_SOURCE_DIR "/inputs/droplet_on_soft_layer.toml",
+        MENISCUS_SOURCE_DIR "/inputs/soft_wetting/droplet_on_soft_layer.toml",
         {"body.drop.core=14", "body.drop.rings=7", "body.layer.spacing=0.0625",
          "contact.line.range=0.06", "contact.line.offset=0.036", "time.end=8",
          "body.layer.material.mu=" + std::to_string(layer.mu),
