@@ -7,6 +7,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/scene/assembly.hpp"
 #include "physics/surface/line_friction.hpp"
+#include "physics/surface/line_pinning.hpp"
 #include "physics/surface/wall_hold.hpp"
 #include "scene/face_keys.hpp"
 
@@ -25,7 +26,7 @@ struct Wetted final : Load<D> {
   static constexpr std::string_view example =
       "body = \"drop\"\nface = \"flat\"\ncontact_angle = 70\nline_friction = 0.2\n";
   std::string name, body, face;
-  std::optional<Real> contact_angle, tension;
+  std::optional<Real> contact_angle, tension, advancing_angle, receding_angle;
   Real line_friction = 0;
   std::vector<Real> axis;
   std::vector<Expression> displacement;
@@ -46,6 +47,13 @@ struct Wetted final : Load<D> {
                      "vapour"),
         real_row("line_friction", &Wetted::line_friction, dimension::viscosity, range::non_negative,
                  "force per length of the contact line and per speed of the line", 0),
+        optional_row("advancing_angle", &Wetted::advancing_angle, dimension::none, range::any,
+                     "none",
+                     "in degrees: the line is pinned while its angle is between receding_angle and "
+                     "this; contact_angle is then the one without pinning, by default that of the "
+                     "mean of both cosines"),
+        optional_row("receding_angle", &Wetted::receding_angle, dimension::none, range::any, "none",
+                     "in degrees, at most advancing_angle"),
         reals_row("axis", &Wetted::axis, D, dimension::none, range::any,
                   "direction of the axis if the wall is a cylinder", std::vector<Real>{}),
         optional_expressions_row("displacement", &Wetted::displacement, D, dimension::length,
@@ -64,9 +72,14 @@ struct Wetted final : Load<D> {
     FaceKeys{body, face, std::nullopt}.check(block, bodies);
     if (face.empty())
       block.problem("face", "is empty; expected is a face, as `meniscus check` lists them");
-    if (contact_angle.has_value() == tension.has_value())
+    if (advancing_angle.has_value() != receding_angle.has_value())
+      block.problem(advancing_angle ? "receding_angle" : "advancing_angle",
+                    "is missing; a line that is pinned has both angles");
+    const bool by_hysteresis = pinned() && !contact_angle && !tension;
+    if (contact_angle.has_value() == tension.has_value() && !by_hysteresis)
       block.problem("contact_angle", contact_angle ? "tension is given, too; allowed is one of them"
                                                    : "missing; give this or tension");
+    check_hysteresis(block);
     if (contact_angle && !(*contact_angle > 0 && *contact_angle < 180))
       block.problem("contact_angle",
                     fmt::format("is {:g}; allowed are angles between 0 and 180", *contact_angle));
@@ -92,9 +105,8 @@ struct Wetted final : Load<D> {
       if (planned.settings.name != body || !planned.in_order) continue;
       const auto wall = wall_through<D>(points_of_face(planned.geometry), direction());
       if (!wall) continue;
-      planned.wetted.push_back(
-          {face, *wall, contact_angle ? -std::cos(*contact_angle * std::numbers::pi / 180) : 0.0,
-           tension.value_or(0), displacement});
+      planned.wetted.push_back({face, *wall, tension ? 0.0 : -cosine_without_pinning(),
+                                tension.value_or(0), displacement});
     }
   }
 
@@ -124,6 +136,7 @@ struct Wetted final : Load<D> {
     assembly.add(std::move(hold), label());
     if (line_friction > 0)
       assembly.add(meniscus::line_friction(on, wetted, line_friction), label());
+    if (pinned()) add_pinning(on, wetted, gamma, assembly);
     for (MeasureSource& source : wetted_measures(on, wetted, drop))
       assembly.measure(label(), std::move(source));
     assembly.walls_of(body)->push_back([wetted](const Vec<D>& x, Real t) {
@@ -154,6 +167,43 @@ struct Wetted final : Load<D> {
       X.back()[0] = -X.back()[0];
     }
     return X;
+  }
+  bool pinned() const { return advancing_angle.has_value() && receding_angle.has_value(); }
+  static Real cosine(Real degrees) { return std::cos(degrees * std::numbers::pi / 180); }
+  /// The cosine of the angle of a line that nothing holds, if there is no tension.
+  Real cosine_without_pinning() const {
+    if (contact_angle) return cosine(*contact_angle);
+    return pinned() ? (cosine(*advancing_angle) + cosine(*receding_angle)) / 2 : 0;
+  }
+  void check_hysteresis(const Block& block) const {
+    if (!pinned()) return;
+    const Real low = *receding_angle, high = *advancing_angle;
+    if (!(0 < low && low <= high && high < 180))
+      block.problem("receding_angle",
+                    fmt::format("is {:g} with the advancing_angle {:g}; allowed are 0 < "
+                                "receding_angle <= advancing_angle < 180",
+                                low, high));
+    else if (contact_angle && !(low <= *contact_angle && *contact_angle <= high))
+      block.problem("contact_angle", fmt::format("is {:g}; allowed are angles from receding_angle, "
+                                                 "{:g}, to advancing_angle, {:g}",
+                                                 *contact_angle, low, high));
+  }
+  /// The bonds give way by about a thousandth of the size of the drop.
+  void add_pinning(const Body<D>& on, const WettedFace<D>& wetted, Real gamma,
+                   Assembly<D>& assembly) const {
+    constexpr Real relative = 500;
+    const Real free = -wetted.relative - wetted.absolute / gamma;
+    const LineHold hold{gamma * (free - cosine(*advancing_angle)),
+                        gamma * (cosine(*receding_angle) - free),
+                        relative * gamma / ball_radius(on.volume(), on.space())};
+    if (!(hold.advancing >= 0 && hold.receding >= 0))
+      throw InputError(
+          fmt::format("{}: tension gives the angle {:.4g}, which is not between receding_angle and "
+                      "advancing_angle",
+                      this->place, std::acos(free) * 180 / std::numbers::pi));
+    const State* const initial = assembly.initial();
+    const std::optional<Motion> start = initial ? std::optional(initial->motion()) : std::nullopt;
+    assembly.add(line_pinning(on, wetted, hold, start ? &*start : nullptr), label());
   }
   /// Stiff beside the pressure of the drop over its size, and soft beside the fluid.
   static Real stiffness_of_hold(const Body<D>& on, Real gamma) {

@@ -40,7 +40,7 @@ void Books::scale_momenta(Real factor) {
 }
 
 void Books::add(const Report& report, Real power_of_loads, Real dt, Real last_share) {
-  dissipated += dt * (1 - last_share) * heat;
+  dissipated += report.lost + dt * (1 - last_share) * heat;
   external_work += report.external_work + dt / 2 * (external_power + load_power);
   push(outside, dt / 2);
   begin(report, power_of_loads);

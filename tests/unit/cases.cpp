@@ -46,6 +46,7 @@ std::vector<Case> variants(int D) {
   add("cavity", "pressure", cavity + "pressure = 0.3\n", all);
   add("cavity", "content", cavity + "volume_target = 0.9\npenalty = 2\nramp = [0, 0.2]\n", all);
   add("area", "kept", "body = \"drop\"\nmodulus = 3\n", all);
+  add("viscoelasticity", "of a liquid", "body = \"drop\"\nmoduli = [0.5]\ntimes = [0.1]\n", all);
   add("spring", "moved by a ramp",
       std::string("body = \"drop\"\nwhere = \"y > 0.8\"\nstiffness = 3\nramp = [0, 0.2]\n") +
           (D == 3 ? "displacement = [0.1, \"0.2*x\", 0.05]\n"
@@ -102,6 +103,12 @@ std::vector<Case> variants(int D) {
                        "[[wetted]]\nbody = \"drop\"\nface = \"flat\"\ntension = 0.3\n"
                        "[[body_force]]\nbody = \"drop\"\nacceleration = " +
                        (D == 3 ? "[0.1, 0, -0.5]\n" : "[0.1, -0.5]\n"),
+                   {},
+                   true});
+  cases.push_back({"load wetted, pinned",
+                   example_heading(D) + sessile_drop(D, moving(D)) +
+                       "[[wetted]]\nbody = \"drop\"\nface = \"flat\"\nadvancing_angle = "
+                       "91\nreceding_angle = 89\n",
                    {},
                    true});
   cases.push_back(

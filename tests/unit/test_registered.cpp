@@ -131,7 +131,8 @@ int expect_powers() {
       const bool by_work = term->name().starts_with("contact") ||
                            term->name().starts_with("varying tension") ||
                            term->name().starts_with("line friction");
-      if (by_work) continue;
+      // Energy that a memory loses at fixed positions becomes heat.
+      if (by_work || report.lost > 0) continue;
       EXPECT_NEAR(report.external_power, rate, 1e-6 * std::abs(energy_at(time)) + 1e-9);
       with_power += std::abs(rate) > 1e-3 * std::abs(energy_at(time));
     }

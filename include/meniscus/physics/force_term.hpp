@@ -102,6 +102,9 @@ struct Report {
   Real external_power = 0;
   /// Work supplied from outside since the last accepted step by sources that may jump in time.
   Real external_work = 0;
+  /// Energy turned into heat since the last accepted step by laws with a memory. It is not in
+  /// `heat`.
+  Real lost = 0;
   /// Net force and moment of loads from outside. A term whose forces should balance each other
   /// leaves this zero, so that the audit of the momenta detects forces that do not balance.
   Resultant outside = {};
@@ -113,6 +116,7 @@ struct Report {
     heat += other.heat;
     external_power += other.external_power;
     external_work += other.external_work;
+    lost += other.lost;
     outside += other.outside;
     demand += other.demand;
     if (!failure) failure = std::move(other.failure);

@@ -101,6 +101,8 @@ class Assembly {
   Real end_time() const { return scene_.time.end; }
   /// True if bodies have inertia, false if the solver looks for equilibria.
   bool is_dynamic() const { return scene_.time.solver == "dynamics"; }
+  /// True if the solver goes to rest by a motion whose time has no meaning.
+  bool is_relaxing() const { return scene_.time.solver == "relax"; }
   /// The initial state; null if the run continues from a checkpoint or a remap.
   const State* initial() const { return begins_ ? &scene_.initial : nullptr; }
   /// Describes a failure of the initial state with the body and position of its particle.

@@ -36,15 +36,15 @@ class KeptDeformations {
 template <int D, class Rule>
 class StressPointForce : public ForceTerm, public AssembledForce {
  public:
-  std::string name() const final { return "internal force of '" + body_.name + "'"; }
-  std::string_view energy_kind() const final { return "strain"; }
+  std::string name() const override { return "internal force of '" + body_.name + "'"; }
+  std::string_view energy_kind() const override { return "strain"; }
   Real steady_after() const final { return laws_->steady_after(); }
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override;
   std::optional<Real> stored_energy(const Motion& motion) const final;
   Real uncancelled_force(const Motion& motion) const final;
   std::optional<std::string> warning(const Motion& motion) const final;
-  std::vector<FieldSource> fields() const final;
-  std::vector<MeasureSource> measures() const final;
+  std::vector<FieldSource> fields() const override;
+  std::vector<MeasureSource> measures() const override;
   std::size_t bytes() const override {
     return rule_.bytes() + chunk_sums_.bytes() + laws_->bytes() +
            (surface_ ? surface_->bytes() : 0) + (volumes_ ? volumes_->bytes() : 0) +
@@ -65,7 +65,7 @@ class StressPointForce : public ForceTerm, public AssembledForce {
                             Forces force) final;
   void subtract_pressure_force(const Motion& motion, const Motion& change,
                                std::span<const Lanes> off, Forces force) final;
-  Real squared_gradients(const Motion& motion) final;
+  Real squared_gradients(const Motion& motion) override;
   void announce(StiffnessMatrix& K) final;
   void add_stiffness(const Motion& motion, std::span<const Lanes> off, StiffnessMatrix& K) final;
 

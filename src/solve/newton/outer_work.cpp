@@ -40,12 +40,14 @@ typename OuterWork<D>::Exchange OuterWork<D>::move(State& state, Real time, cons
   moved_.lambda = state.reactions.force;
   state.u = u;
   state.time = time;
-  state.demand = system_.compute_forces(state.motion(), state.forces()).demand;
+  const Report report = system_.compute_forces(state.motion(), state.forces());
+  state.demand = report.demand;
   if (system_.constraints) system_.constraints->balance(state.force, state.reactions.force);
   moved_.work = work_between({begin, from, moved_.lambda}, {time, state.u, state.reactions.force});
   book(state, moved_.work);
+  state.books.dissipated += report.lost;
   return {std::accumulate(moved_.work.begin(), moved_.work.end(), 0.0),
-          stored_energy(system_, state.motion()) - stored};
+          stored_energy(system_, state.motion()) - stored, report.lost};
 }
 
 template <int D>

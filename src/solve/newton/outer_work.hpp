@@ -17,9 +17,9 @@ class OuterWork {
 
   /// Energies of one piece of the way.
   struct Exchange {
-    Real work = 0, stored = 0;
-    Real released() const { return work - stored; }
-    Real size() const { return std::abs(work) + std::abs(stored); }
+    Real work = 0, stored = 0, lost = 0;  ///< lost: Report::lost
+    Real released() const { return work - stored - lost; }
+    Real size() const { return std::abs(work) + std::abs(stored) + lost; }
   };
   struct Piece {
     Real dt = 0;  ///< 0: unknown
