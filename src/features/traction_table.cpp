@@ -24,8 +24,10 @@ struct Traction final : Load<D> {
     Rows<Traction> rows = face_rows<Traction>(&Traction::face);
     rows.insert(
         rows.begin(),
-        text_row("name", &Traction::name,
-                 "by which messages and measures call it; empty: the body and the face", ""));
+        text_row(
+            "name", &Traction::name,
+            "name of the table in messages and measures; empty: name of the body, then of the face",
+            ""));
     const std::vector<Row<Traction>> own = {
         optional_expressions_row("force", &Traction::force, D, dimension::pressure,
                                  Variables::place_and_time,

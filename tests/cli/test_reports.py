@@ -490,6 +490,13 @@ class Reports(ProgramTest):
         modulus = 2e5 * (1 + nu) / (1 - nu**2)
         found = float(re.search(r"contact 'wall': Tabor number (\S+) ", said)[1])
         self.assertAlmostEqual(found / (R * 500**2 / modulus**2 / gap**3)**(1 / 3), 1, delta=0.02)
+        # A cylinder of the same law, in the half plane.
+        flat = SHEET.replace("dimension = 2", 'dimension = "axisymmetric"').replace("size = [1, 2]", "size = [1, 2]\ncorner = [0, 0]")
+        said = self.call("check", self.scene(flat + law.replace('"block"', '"sheet"').replace("[0, 0, -0.9]", "[0, -0.9]").replace(
+            "[0, 0, 1]", "[0, 1]"))).stdout
+        R = (3 * 2 * np.pi / (4 * np.pi))**(1 / 3)
+        found = float(re.search(r"contact 'wall': Tabor number (\S+) ", said)[1])
+        self.assertAlmostEqual(found / (R * 500**2 / modulus**2 / gap**3)**(1 / 3), 1, delta=0.02)
 
     def test_drop_that_spreads_with_waves(self):
         """The warning appears only if viscosity is low, the way is long, and bodies have inertia."""
