@@ -50,11 +50,10 @@ struct Remaps final : Load<D> {
     const auto now = [distortion, first = on.first](const Motion& motion) {
       return distortion->condition(motion.u.data() + first);
     };
-    assembly.measure(body,
-                     {"condition", dimension::none,
-                      "ratio of the largest and the least stretch since the body was referred "
-                      "anew, which 99 % of the particles stay below",
-                      now});
+    assembly.measure(body, {"condition", dimension::none,
+                            "ratio of the largest and the least stretch since the last remap, "
+                            "which 99 % of the particles do not exceed",
+                            now});
     assembly.remap({body, at, nodes == "even", condition, now});
   }
 };
