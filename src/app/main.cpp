@@ -131,8 +131,10 @@ std::vector<CommandText> texts_of(const CLI::App& app) {
 
 void print_help(const std::string& topic, const CLI::App& app) {
   if (topic.empty())
-    return print_text("Topics, for `meniscus help TOPIC`; of a command it prints the options:\n" +
-                      list_of_topics());
+    return print_text(
+        "Topics, for `meniscus help TOPIC`; of a command it prints the options. `meniscus help\n"
+        "how_do_i` has recipes and says which topic has what.\n" +
+        list_of_topics());
   std::vector<std::string> known = names_of(guide_topics());
   for (const CLI::App* command : app.get_subcommands({})) {
     if (command->get_name() == topic) return print_text(command->help());

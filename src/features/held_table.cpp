@@ -31,27 +31,30 @@ struct Held final : Load<D> {
   Ramp ramp;
 
   static Rows<Held> rows() {
-    Rows<Held> rows = face_rows<Held>(&Held::face, "those that where chooses");
+    Rows<Held> rows = face_rows<Held>(&Held::face, "the facets that `where` chooses");
     rows.insert(
         rows.begin(),
-        text_row("name", &Held::name,
-                 "by which messages and measures call it; empty: the body and the face", ""));
+        text_row(
+            "name", &Held::name,
+            "name of the table in messages and measures; empty: name of the body, then of the face",
+            ""));
     const std::vector<Row<Held>> own = {
         texts_row("components", &Held::components,
-                  "which are prescribed: of x, y, z (2D: x, y), or normal alone; empty: all",
+                  "components of the displacement that are prescribed: some of x, y, z (2D: x, y), "
+                  "or normal alone; empty: all",
                   std::vector<std::string>{}),
         optional_expressions_row("displacement", &Held::displacement, D, dimension::length,
                                  Variables::place_and_time,
                                  "a formula of reference position and time t for each component"),
         choice_row("from", &Held::from, {"reference", "start"},
-                   "what displacement and angle are counted from: the reference, or the first "
-                   "places of the run, as in a stage or after [initial]",
+                   "where displacement and angle are zero: in the reference, or where the face is "
+                   "when the run or stage begins",
                    "reference"),
         optional_expressions_row("force", &Held::force, D, of_sum(dimension::force, D),
                                  Variables::time,
-                                 "instead of displacement and angle: the sum of forces on the "
-                                 "face, which moves as one along its components; a formula of t "
-                                 "for each component"),
+                                 "total force on the face, instead of displacement and angle: the "
+                                 "face is a grip that keeps its form along the components and "
+                                 "moves by itself; a formula of t for each component"),
         optional_expression_row("angle", &Held::angle, dimension::none, range::any, "0",
                                 "by which the face is turned about the axis, in radians, before "
                                 "it is displaced; a formula of t"),

@@ -17,19 +17,21 @@ struct Remaps final : Load<D> {
   Real condition = 0;
 
   static Rows<Remaps> rows() {
-    return {text_row("body", &Remaps::body, "name of the body, a drop of fluid"),
-            reals_row("at", &Remaps::at, 0, dimension::time, range::positive,
-                      "times; it is done after the step that reaches one", std::vector<Real>{}),
-            real_row("condition", &Remaps::condition, dimension::none, {1.5, 100},
-                     "it is done when more than 1 % of the particles have a larger ratio of the "
-                     "largest and the least stretch since the last time; looked at every 50 steps, "
-                     "more seldom in runs of more than 1600; "
-                     "0: only at the times",
-                     0),
-            choice_row("nodes", &Remaps::nodes, {"even", "particles"},
-                       "placed evenly in the body as it is, on the contact line of a rigid partner "
-                       "if there is one; where the particles are",
-                       "even")};
+    return {
+        text_row("body", &Remaps::body, "name of the body, a drop of fluid"),
+        reals_row("at", &Remaps::at, 0, dimension::time, range::positive,
+                  "times of remaps; each is done after the step that reaches the time",
+                  std::vector<Real>{}),
+        real_row(
+            "condition", &Remaps::condition, dimension::none, {1.5, 100},
+            "ratio of the largest and the least stretch of a particle since the last remap. The "
+            "body is remapped when more than 1 % of its particles exceed it; checked every 50 "
+            "steps, less often in runs of more than 1600 steps. 0: remaps at the times only",
+            0),
+        choice_row("nodes", &Remaps::nodes, {"even", "particles"},
+                   "even: new nodes are spread evenly over the present shape, a ring of them on "
+                   "the contact line of a rigid partner. particles: new nodes are at the particles",
+                   "even")};
   }
   std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }
 
@@ -48,11 +50,10 @@ struct Remaps final : Load<D> {
     const auto now = [distortion, first = on.first](const Motion& motion) {
       return distortion->condition(motion.u.data() + first);
     };
-    assembly.measure(body,
-                     {"condition", dimension::none,
-                      "ratio of the largest and the least stretch since the body was referred "
-                      "anew, which 99 % of the particles stay below",
-                      now});
+    assembly.measure(body, {"condition", dimension::none,
+                            "ratio of the largest and the least stretch since the last remap, "
+                            "which 99 % of the particles do not exceed",
+                            now});
     assembly.remap({body, at, nodes == "even", condition, now});
   }
 };

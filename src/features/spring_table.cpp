@@ -29,8 +29,10 @@ struct Spring final : Load<D> {
     Rows<Spring> rows = face_rows<Spring>(&Spring::face);
     rows.insert(
         rows.begin(),
-        text_row("name", &Spring::name,
-                 "by which messages and measures call it; empty: the body and the face", ""));
+        text_row(
+            "name", &Spring::name,
+            "name of the table in messages and measures; empty: name of the body, then of the face",
+            ""));
     const std::vector<Row<Spring>> own = {
         reals_row("at", &Spring::at_place, 0, dimension::length, range::any,
                   "reference place of one spring, instead of a face", std::vector<Real>{}),

@@ -39,10 +39,9 @@ Rows<Keys> Keys::rows() {
                   "Gauss points per direction and surface facet, for weak and curvature", 3),
       real_row("coefficient_damping", &Keys::coefficient_damping, dimension::none,
                range::non_negative,
-               "damping of what of the velocity coefficients of a fluid does not move places, in "
-               "kinematic viscosity / spacing^2, for balanced; 0: none; of several faces the first "
-               "table "
-               "counts",
+               "balanced: damping of combinations of velocity coefficients of a fluid that leave "
+               "every material point at rest, in units of kinematic viscosity / spacing^2; 0: "
+               "none. Of several tables of a body the first counts",
                0.5),
   };
 }

@@ -24,21 +24,23 @@ struct Traction final : Load<D> {
     Rows<Traction> rows = face_rows<Traction>(&Traction::face);
     rows.insert(
         rows.begin(),
-        text_row("name", &Traction::name,
-                 "by which messages and measures call it; empty: the body and the face", ""));
+        text_row(
+            "name", &Traction::name,
+            "name of the table in messages and measures; empty: name of the body, then of the face",
+            ""));
     const std::vector<Row<Traction>> own = {
-        optional_expressions_row("force", &Traction::force, D, dimension::pressure,
-                                 Variables::place_and_time,
-                                 "per reference area, whatever becomes of the surface; a formula "
-                                 "of reference position and time t for each component"),
+        optional_expressions_row(
+            "force", &Traction::force, D, dimension::pressure, Variables::place_and_time,
+            "force per area of the reference; it does not change with the area; a formula of "
+            "reference position and time t for each component"),
         optional_expressions_row("total", &Traction::total, D, of_sum(dimension::force, D),
                                  Variables::time,
-                                 "the sum of even forces on the face, whatever becomes of it; a "
+                                 "total force, spread evenly over the face of the reference; a "
                                  "formula of time t for each component"),
-        optional_expression_row("pressure", &Traction::pressure, dimension::pressure, range::any,
-                                "none",
-                                "per present area, against the surface and following it; a formula "
-                                "of reference position and time; one of force, total and pressure"),
+        optional_expression_row(
+            "pressure", &Traction::pressure, dimension::pressure, range::any, "none",
+            "pressure per present area, against the surface, which it follows; a formula of "
+            "reference position and time; give one of force, total and pressure"),
         ramp_row("ramp", &Traction::ramp, "force, total or pressure from 0")};
     rows.insert(rows.end(), own.begin(), own.end());
     return rows;

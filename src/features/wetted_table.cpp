@@ -33,8 +33,10 @@ struct Wetted final : Load<D> {
 
   static Rows<Wetted> rows() {
     return {
-        text_row("name", &Wetted::name,
-                 "by which messages and measures call it; empty: the body and the face", ""),
+        text_row(
+            "name", &Wetted::name,
+            "name of the table in messages and measures; empty: name of the body, then of the face",
+            ""),
         text_row("body", &Wetted::body, "name of the drop"),
         text_row("face", &Wetted::face,
                  "name of the face that lies on the wall, as `meniscus check` lists them; the wall "

@@ -139,8 +139,9 @@ Real Assembly<D>::find_shear_modulus(const std::string& name) const {
   rest_.resize(scene_.system.mass.size(), Lanes::zero());
   sheared_.resize(rest_.size(), Lanes::zero());
   const std::span<NodalVector> u = sheared.part(std::span(sheared_));
+  // Along y by x, since along x by y stretches the circles around the axis of a body of revolution.
   const auto strain_energy = [&](Real shear) {
-    for (Index A = 0; A < sheared.size(); ++A) at(u, A).set(0, shear * sheared.origin(A)[1]);
+    for (Index A = 0; A < sheared.size(); ++A) at(u, A).set(1, shear * sheared.origin(A)[0]);
     return force.stored_energy({0, sheared_, rest_}).value_or(0);
   };
   // The even part of the energy: a stressed reference adds a part that is linear in the shear.

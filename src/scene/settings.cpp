@@ -43,9 +43,9 @@ Rows<InitialSettings> InitialSettings::rows() {
 Rows<ResolutionSettings> ResolutionSettings::rows() {
   return {
       real_row("refine", &ResolutionSettings::refine, dimension::none, refinements,
-               "by which the cells of all bodies are finer: numbers of cells times this, "
-               "rounded, even ones to even ones, and spacings divided by it. Lengths of physics "
-               "stay, but those that are left to the cells by default",
+               "factor by which the cells of all bodies are finer. Numbers of cells are multiplied "
+               "and rounded, even numbers to even ones; spacings are divided. Lengths that the "
+               "scene gives do not change; lengths with a default that depends on the cells do",
                1.0)};
 }
 
@@ -63,27 +63,29 @@ Rows<TimeSettings> TimeSettings::rows() {
       integer_row("check_every", &S::check_every, {1, 1e9},
                   "most steps between two estimates of the stable step; fewer while it changes",
                   250),
-      choice_row("viscosity", &S::viscosity, {"explicit", "implicit", "automatic"},
-                 "dynamics: viscous forces of the velocity before, which limit the step, or of the "
-                 "mean of those before and after, found by a few iterations per step: worth it "
-                 "where fine or stretched particles of a fluid make steps short. automatic: "
-                 "implicit where its steps are more than twice as long at the start (a fixed step: "
-                 "where it is too long for explicit ones), as the log says",
-                 "explicit"),
+      choice_row(
+          "viscosity", &S::viscosity, {"explicit", "implicit", "automatic"},
+          "dynamics: how viscous forces are integrated. explicit: by the known velocity, which "
+          "limits the step. implicit: by the mean of the old and the new velocity, found in a few "
+          "iterations per step; faster where fine or stretched particles of a fluid make steps "
+          "short. automatic: implicit if its steps are more than twice as long at the start, or if "
+          "time.step is too long for explicit; the log names the choice",
+          "explicit"),
       choice_row(
           "solver", &S::solver, Registry<StepperEntry>::all().names(),
-          "motion as it is, or damped to the equilibrium: relax stops by itself, at the "
-          "latest at end, where a body that still moves is an error. newton: equilibria from "
-          "load step to load step, without motion; fluids flow to them by long steps of implicit "
-          "Euler, without inertia from step to step",
+          "dynamics: the real motion. relax: damped motion to the equilibrium; stops at rest, and "
+          "it is an error if bodies still move at end. newton: an equilibrium at each load step, "
+          "without motion; fluids flow to rest by long steps of implicit Euler",
           "dynamics"),
       real_row(
           "force_tolerance", &S::force_tolerance, dimension::none, range::positive,
-          "relax: forces left on the particles / forces before they cancel; newton with fluids: "
-          "energy left to be released / energy released",
+          "when bodies are at rest. relax: net forces on the particles / sum of the sizes of the "
+          "forces. newton with fluids: energy that is still to be released / energy released",
           1e-5),
       real_row("shape_tolerance", &S::shape_tolerance, dimension::none, range::positive,
-               "relax: largest change of place that is left / extent", 1e-4),
+               "when bodies are at rest, for relax: largest displacement still expected / extent "
+               "of the body",
+               1e-4),
   };
 }
 

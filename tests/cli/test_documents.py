@@ -78,6 +78,25 @@ class Documents(ProgramTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
+class GuideScenes(ProgramTest):
+    """Every scene of the guide, a block of TOML with a [[body]]."""
+
+    def test_they_run(self):
+        """A scene with expected values is run to its end, others by a few steps."""
+        (self.directory / "meshes").symlink_to(ROOT / "inputs" / "meshes")
+        scenes = 0
+        for path in sorted((ROOT / "inputs" / "guide").glob("*.md")):
+            blocks = re.findall(r"^```toml\n(.*?)^```", text_of(path), re.DOTALL | re.MULTILINE)
+            for text in (block for block in blocks if "[[body]]" in block):
+                name = f"{path.stem}_{text_of(path)[:text_of(path).index(text)].count(chr(10)) + 1}"  # page and line
+                with self.subTest(name):
+                    self.call("check", self.scene(text, name))
+                    part = [] if re.search(r"^\w+ = {.*\bvalue = ", text, re.MULTILINE) else ["--until", "1e-9"]
+                    self.call("run", f"{name}.toml", "--quiet", "--threads", "1", *part)
+                scenes += 1
+        self.assertGreater(scenes, 15)
+
+
 class ResultsTable(ProgramTest):
     def table(self, *arguments, code=0):
         done = subprocess.run([sys.executable, ROOT / "tools/results_table.py", *map(str, arguments)],

@@ -489,6 +489,41 @@ class Reports(ProgramTest):
         modulus = 2e5 * (1 + nu) / (1 - nu**2)
         found = float(re.search(r"contact 'wall': Tabor number (\S+) ", said)[1])
         self.assertAlmostEqual(found / (R * 500**2 / modulus**2 / gap**3)**(1 / 3), 1, delta=0.02)
+        # A cylinder of the same law, in the half plane.
+        flat = SHEET.replace("dimension = 2", 'dimension = "axisymmetric"').replace("size = [1, 2]", "size = [1, 2]\ncorner = [0, 0]")
+        said = self.call("check", self.scene(flat + law.replace('"block"', '"sheet"').replace("[0, 0, -0.9]", "[0, -0.9]").replace(
+            "[0, 0, 1]", "[0, 1]"))).stdout
+        R = (3 * 2 * np.pi / (4 * np.pi))**(1 / 3)
+        found = float(re.search(r"contact 'wall': Tabor number (\S+) ", said)[1])
+        self.assertAlmostEqual(found / (R * 500**2 / modulus**2 / gap**3)**(1 / 3), 1, delta=0.02)
+
+    def test_rest_of_a_drop_whose_loads_change(self):
+        """newton with fluids: the log calls the end a rest only if the loads are steady before."""
+        drop = """
+        dimension = "axisymmetric"
+        time = { solver = "newton", end = 40, step = 5 }
+        [[body]]
+        name = "drop"
+        shape = "cap"
+        radius = 1
+        contact_angle = 90
+        core = 4
+        rings = 1
+        material = { type = "newtonian", density = 1, bulk_modulus = 20, viscosity = 1 }
+        [[surface_tension]]
+        body = "drop"
+        gamma = 1
+        [[wetted]]
+        body = "drop"
+        face = "flat"
+        contact_angle = 90
+        [[body_force]]
+        body = "drop"
+        acceleration = [0, "-0.1*min(t, STEADY)/STEADY"]
+        """
+        for steady, words in ((5, "at rest at t = "), (40, "loads change until the end at t = 40 s, where bodies need not be at rest")):
+            self.call("run", self.scene(drop.replace("STEADY", str(steady))), "--overwrite")
+            self.assertIn(words, (self.directory / "results/scene/run.log").read_text())
 
     def test_drop_that_spreads_with_waves(self):
         """The warning appears only if viscosity is low, the way is long, and bodies have inertia."""

@@ -25,9 +25,9 @@ std::vector<std::string> forms() {
 Rows<Keys> Keys::rows() {
   Row<Keys> interaction =
       choice_row("interaction", &Keys::interaction, interactions<3>().names(),
-                 "by which they act on each other; its own keys follow in the same table. With an "
-                 "adhesion or a contact_angle it may be left out: it is smooth_young then, or "
-                 "with sigma0 scaled_lennard_jones",
+                 "law of attraction and repulsion, whose own keys are in the same table. If it is "
+                 "not given, a table with an adhesion or a contact_angle has smooth_young, one "
+                 "with sigma0 besides scaled_lennard_jones, any other lennard_jones",
                  "lennard_jones");
   interaction.read = [](Keys& keys, const Block& block) {
     keys.interaction =
@@ -41,8 +41,8 @@ Rows<Keys> Keys::rows() {
                  "energy");
   form.read = [](Keys&, const Block&) {};  // read with the interaction, for its default
   return {
-      text_row("name", &Keys::name, "by which messages and measures call it; empty: the bodies",
-               ""),
+      text_row("name", &Keys::name,
+               "name of the contact in messages and measures; empty: names of the bodies", ""),
       texts_row("bodies", &Keys::bodies,
                 "names of two bodies, or of one that has a [contact.partner]"),
       interaction,
@@ -51,21 +51,20 @@ Rows<Keys> Keys::rows() {
                  "surface forms: beta per current volume, or per reference volume (beta/J); the "
                  "form volume is referential",
                  "constant"),
-      integer_row(
-          "points", &Keys::points, {0, 20},
-          "Gauss points per direction and facet of the surface (form volume: cell); 0: so "
-          "many that tangential forces of smooth bodies stay below 1e-3 of the normal ones, "
-          "2 to 8 (rigid partners: to 4, form volume: 2)",
-          0),
+      integer_row("points", &Keys::points, {0, 20},
+                  "number of Gauss points per direction and facet of the surface (form volume: "
+                  "cell). 0: chosen, 2 to 8 (rigid partners: to 4, form volume: 2), so that "
+                  "spurious friction stays below 1e-3 of the normal force",
+                  0),
       real_row("skin", &Keys::skin, dimension::none, {0.01, 10},
-               "reach of the list beyond the cut-off / sigma0 (a law of the gap: / quarter of its "
-               "range)",
+               "distance beyond the cut-off up to which pairs of points are listed / sigma0 "
+               "(smooth_young: / quarter of its range). It changes the speed only",
                0.4),
       reals_row("up", &Keys::up, 0, dimension::none, range::any,
-                "of two bodies with a law of the gap: the first is a drop that rests on the "
-                "second, ground below it, and this points from the ground to the drop. Gaps are "
-                "those along it and the drop has all of the energy, as on a rigid partner; "
-                "without it both surfaces have a half",
+                "for a drop, the first body, on soft ground, the second body, with smooth_young: "
+                "direction from the ground to the drop. Gaps are measured along it, and only the "
+                "drop stores adhesion energy, as on a rigid partner. Without it each body stores "
+                "half of the energy",
                 std::vector<Real>{}),
       real_row("friction", &Keys::friction, {-2, -1, 1}, range::non_negative,
                "with a rigid partner: traction along it per relative speed where the surfaces "

@@ -90,7 +90,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
          [this](const Motion& motion) { return *stored_energy(motion); }},
         {"gap", dimension::length, "least distance of the two surfaces; at most the range",
          [this](const Motion& motion) { return gap(motion); }},
-        {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
+        {"gap_per_spacing", dimension::none, "least gap / distance of neighbouring points",
          [this](const Motion& motion) { return gap(motion) / spacing(); }}};
     if (wets_)
       all.push_back({"wetted_area", of_sum(dimension::area, D),

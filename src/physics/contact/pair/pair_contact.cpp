@@ -350,7 +350,7 @@ std::vector<MeasureSource> PairContact<D>::measures() const {
       {"energy", dimension::energy, "energy of the interaction",
        [this](const Motion& motion) { return *stored_energy(motion); }},
       {"gap", dimension::length, "least distance of the points of the two bodies", gap},
-      {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
+      {"gap_per_spacing", dimension::none, "least gap / distance of neighbouring points",
        [this, gap](const Motion& motion) { return gap(motion) / spacing(); }}};
   const bool revolved = visits_.first(0).body().geometry.grid.revolved;
   for (int i = revolved ? 1 : 0; i < D; ++i)

@@ -41,10 +41,10 @@ struct SmoothYoung final : Interaction {
     return {
         optional_expression_row(
             "contact_angle", &SmoothYoung::angle, dimension::degrees, {1, 179}, "by adhesion",
-            "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension of the body; "
-            "like adhesion and actin a number or a formula of the time t, with a rigid partner or "
-            "on ground (`up`) also of the place x, y, z on it, which moves and deforms with it, "
-            "smooth over a hundredth of the range"),
+            "Young's angle in degrees; adhesion = gamma (1 + cos theta) with the surface tension "
+            "gamma of the body. contact_angle, adhesion and actin are numbers or formulas of the "
+            "time t, with a rigid partner or with `up` also of the place x, y, z on it, which "
+            "moves and deforms with it. Formulas have to be smooth over a hundredth of the range"),
         optional_expression_row("adhesion", &SmoothYoung::work, dimension::tension,
                                 range::non_negative, "by contact_angle",
                                 "energy per area that contact releases"),
@@ -54,7 +54,7 @@ struct SmoothYoung final : Interaction {
                                 "work"),
         optional_row("range", &SmoothYoung::depth, dimension::length, range::positive,
                      "half the size of a facet",
-                     "beyond the offset, over which the interaction acts"),
+                     "length over which the interaction acts, beyond the offset"),
         optional_row("offset", &SmoothYoung::film, dimension::length, range::any, "by the angle",
                      "gap at which the surface rests; > 0 between two bodies. The default lets a "
                      "drop have its angle at the surface of a rigid partner: -1.3 to 0.3 ranges "
