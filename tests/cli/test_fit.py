@@ -225,6 +225,17 @@ class Fit(ProgramTest):
         self.assertLess(found["gamma"]["deviation"], 0.02)
         self.assertLess(found["viscosity"]["deviation"], 0.01)
 
+    def test_shipped_fits(self):
+        """All can be read. Data of the tension test are those of the closed form, with noise of 2 % and 0.003 mm."""
+        for path in sorted((INPUTS / "fits").glob("*.toml")):
+            if "[[parameter]]" in path.read_text():
+                read_fit_file(path)
+        data = np.loadtxt(INPUTS / "fits/tension_neo_hookean.csv", delimiter=",", skiprows=2)
+        true = np.array([tension(1 + extension / 4, 200, 500) for extension in data[:, 0]])
+        noise = np.column_stack([(data[:, 1] / true[:, 0] - 1) / 0.02, (data[:, 2] - true[:, 1]) / 0.003])
+        self.assertLess(np.abs(noise).max(), 4)
+        self.assertGreater(noise.std(), 0.5)
+
     def test_values_bounds_and_parameters_that_cannot_be_told_apart(self):
         """One force of a small stretch gives only a sum of the moduli, and no error."""
         small = ('[[scene]]\nfile = "bar.toml"\nset = { "held.grip.displacement" = [0.01, 0, 0] }\n[[scene.value]]\n'
