@@ -28,6 +28,7 @@ enum ExitCode : int {
 struct RunRequest {
   std::string scene, output, restart, command_line;
   std::vector<std::string> set;
+  std::vector<std::string> beside;  ///< scenes that follow the run, as "KEY=VALUE; KEY=VALUE"
   std::optional<std::int64_t> frame;
   std::string until;                   ///< a time such as "0.1 ns"; empty: the end
   std::optional<double> max_walltime;  ///< seconds

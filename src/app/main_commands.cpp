@@ -101,6 +101,14 @@ void add_run_options(CLI::App& command, RunRequest& request) {
           },
           "write a checkpoint and stop after this time, exit code 142")
       ->type_name("H:M:S");
+  command
+      .add_option("--beside", request.beside,
+                  "also follow the equilibria of this scene with these keys changed slightly, in "
+                  "beside-1.csv, beside-2.csv, ...; for derivatives, of scenes with newton")
+      ->type_name("KEY=VALUE;KEY=VALUE")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->excludes(restart);
   command.add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
 }
 

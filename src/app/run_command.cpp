@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus run`: runs a scene from its file to the last frame and returns the exit code.
+#include "app/besides.hpp"
 #include "app/commands.hpp"
 #include "app/interruption.hpp"
 #include "app/outputs.hpp"
@@ -38,8 +39,9 @@ Asked asked_anywhere(const Interruption& interruption, double next_checkpoint) {
 /// there was one. Steps depend on the scene alone, so that a run that was stopped anywhere
 /// continues with the same bits.
 template <int D>
-std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& log,
-                             const Interruption& interruption, Progress& progress, Real stop) {
+std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, Besides<D>& besides,
+                             RunLog& log, const Interruption& interruption, Progress& progress,
+                             Real stop) {
   const double checkpoint_seconds = 60 * epochs.scene().output.checkpoint_minutes;
   double next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
   const auto warn = [&](const std::string& sentence) {
@@ -66,6 +68,7 @@ std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& l
     }
     const auto ledger = recorder.record(before);
     progress.show(simulation.state(), simulation.last_step(), ledger);
+    if (ledger) besides.record(simulation);
     if (ledger) warnings.look(*ledger);
     if (const auto warning = simulation.controller().take_warning()) warn(*warning);
     for (const std::string& note : simulation.take_notes()) {
@@ -92,9 +95,10 @@ int end_failed(const SolveError& error, bool quiet, Recorder<D>& recorder, RunLo
 
 /// Makes the run and records it in its directory, which is already open.
 template <int D>
-int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance& origin,
-                 const std::optional<Restart>& restart, const Interruption& interruption,
-                 double begun, Real stop, const RunDirectory& directory, RunLog& log) {
+int run_recorded(Epochs<D>& epochs, Besides<D>& besides, const RunRequest& request,
+                 const Provenance& origin, const std::optional<Restart>& restart,
+                 const Interruption& interruption, double begun, Real stop,
+                 const RunDirectory& directory, RunLog& log) {
   const bool in_place = restart && restart->in_place;
   const State& begin = epochs.simulation().state();
   if (in_place) {  // write a checkpoint before later rows are removed
@@ -103,6 +107,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
         [&] { CheckpointWriter(directory, origin).write(begin.step, begin.time, snapshot); });
   }
   Recorder<D> recorder(epochs.simulation(), directory, origin, in_place);
+  besides.open(directory);
   Progress progress(begin, stop,
                     {epochs.scene().units.symbol(dimension::time),
                      epochs.scene().symbol_of_sum(dimension::energy),
@@ -122,9 +127,10 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
     if (!restart) {
       epochs.simulation().settle();
       recorder.record(-1);
+      besides.record(epochs.simulation());
       has_begun = true;
     }
-    signal = run_steps(epochs, recorder, log, interruption, progress, stop);
+    signal = run_steps(epochs, recorder, besides, log, interruption, progress, stop);
   } catch (const Interrupted&) {
     signal = interruption.requested();
   } catch (const SolveError& e) {
@@ -200,6 +206,7 @@ int run_scene(const SceneInput& input, const RunRequest& request, Interruption& 
       set_up(input, [&] { return std::make_unique<Epochs<D>>(std::move(plan), state); });
   require_known_outputs(input, epochs->scene());
   if (!restart) set_up(input, [&] { epochs->simulation().begin(); });
+  Besides<D> besides(request);
 
   interruption.catch_signals();  // until here nothing is lost if the program ends at once
   const std::unique_ptr<RunDirectory> directory =
@@ -212,8 +219,8 @@ int run_scene(const SceneInput& input, const RunRequest& request, Interruption& 
   for (const std::string& note : epochs->simulation().take_notes()) log.info(note);
   if (!restart) report_residuals(epochs->simulation(), log);
   try {
-    return run_recorded(*epochs, request, origin, restart, interruption, begun, stop, *directory,
-                        log);
+    return run_recorded(*epochs, besides, request, origin, restart, interruption, begun, stop,
+                        *directory, log);
   } catch (const FileError& e) {
     log.error(e.what());
     keep_complaint(e.what());

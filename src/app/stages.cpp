@@ -32,6 +32,8 @@ void require_buildable(const SceneInput& input) {
 }
 
 void refuse_options_of_one_stage(const RunRequest& request) {
+  if (!request.beside.empty())
+    throw InputError("--beside is for a scene without stages; leave it out");
   const std::string option = !request.until.empty() ? "--until" : request.frame ? "--frame" : "";
   if (!option.empty())
     throw InputError(fmt::format(

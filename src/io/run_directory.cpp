@@ -49,11 +49,12 @@ void remove_temporaries(const std::filesystem::path& directory) {
   }
 }
 
-/// Files probe-NAME.csv of all lines of points, of this run or an earlier one.
-std::vector<std::filesystem::path> probe_files(const std::filesystem::path& directory) {
+/// Files probe-NAME.csv of lines of points and beside-K.csv, of this run or an earlier one.
+std::vector<std::filesystem::path> tables_of(const std::filesystem::path& directory) {
   std::vector<std::filesystem::path> files;
   for (const auto& path : entries_of(directory))
-    if (path.filename().string().starts_with("probe-") && path.extension() == ".csv")
+    if (const std::string name = path.filename().string();
+        (name.starts_with("probe-") || name.starts_with("beside-")) && path.extension() == ".csv")
       files.push_back(path);
   return files;
 }
@@ -64,7 +65,7 @@ void refuse_links(const std::filesystem::path& directory) {
   for (const char* name : series_names)
     for (const auto& file : result_series(directory, name))
       for (const auto& path : {file, view_of(file)}) refuse_unless_regular(path);
-  for (const auto& file : probe_files(directory)) refuse_unless_regular(file);
+  for (const auto& file : tables_of(directory)) refuse_unless_regular(file);
 }
 
 void remove_run(const std::filesystem::path& directory) {
@@ -73,7 +74,7 @@ void remove_run(const std::filesystem::path& directory) {
     for (auto file = series.rbegin(); file != series.rend(); ++file) remove_result(*file);
   }
   for (const char* name : run_files) remove_file(directory / name);
-  for (const auto& file : probe_files(directory)) remove_file(file);
+  for (const auto& file : tables_of(directory)) remove_file(file);
 }
 
 }  // namespace

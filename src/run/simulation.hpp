@@ -40,6 +40,12 @@ class Simulation {
   /// incomplete.
   void advance();
 
+  /// Moves to the equilibrium near that of `base`, a simulation of the same scene with slightly
+  /// other numbers, by Newton's method with the tangent of `base` (quasi-statics note 11). Throws
+  /// InputError if the scene has other particles or the stepper of `base` finds no equilibria of
+  /// solids, and SolveError if there is no equilibrium near, or that of `base` is not stable.
+  void follow(Simulation& base);
+
   /// From now on long steps stop when asked() returns true. settle() and advance() then throw
   /// Interrupted, and the state is bitwise as before the call.
   void stop_when(const std::function<bool()>& asked);

@@ -22,6 +22,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "src" / "python"))
 from meniscus import InputError  # noqa: E402
 from meniscus.fit_file import read_fit_file  # noqa: E402
+from meniscus.results import read_history  # noqa: E402
 
 program.ENVIRONMENT["OMP_NUM_THREADS"] = "1"
 
@@ -92,6 +93,36 @@ def oscillation(t, nu, gamma, mode=2, terms=24):
     return total / terms
 
 
+LAYER = """
+dimension = "axisymmetric"
+constants = { E = 1, w = 0.02, gamma = 0, width = 1.2, reach = 0.15 }
+time = { solver = "newton", end = 1, step = 0.5 }
+output = { history_every = 0.5, measures = ["ball.force_y", "layer.extent_x"] }
+[[body]]
+name = "layer"
+shape = "rectangle"
+size = ["width", 0.4]
+cells = [8, 3]
+centre = ["width/2", 0.2]
+material = { type = "neo_hookean", density = 1, youngs_modulus = "E", poissons_ratio = 0.4 }
+[[held]]
+body = "layer"
+face = "y_min"
+[[contact]]
+name = "ball"
+bodies = ["layer"]
+interaction = "scaled_lennard_jones"
+adhesion = "w"
+sigma0 = "reach"
+[contact.partner]
+type = "ball"
+centre = [0, "1.4 + reach"]
+radius = 1
+displacement = [0, "-0.2*t"]
+"""
+SKIN = '[[surface]]\nbody = "layer"\nlaw = { type = "neo_hookean_skin", mu = "gamma", lambda = 0.1 }\n'
+
+
 class Fit(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -144,6 +175,36 @@ class Fit(ProgramTest):
         self.table(noise=(0.01, 0.001))
         self.refused(["fit", "fit.toml", "--output", "out"], 3, "has runs of another fit")
 
+    def derivatives(self, scene, keys):
+        """Derivatives of all columns by keys (with their values): of equilibria beside a run, and of runs alone."""
+        step, derivatives = 1e-4, []
+        ends = [f"{key}={value * (1 + sign * step):.15g}" for key, value in keys.items() for sign in (1, -1)]
+        beside = [word for end in ends for word in ("--beside", end)]
+        self.call("run", scene, "--quiet", "--overwrite", "--output", "near", *beside)
+        for k, end in enumerate(ends):
+            self.call("run", scene, "--quiet", "--overwrite", "--output", f"alone-{k}", "--set", end)
+        near = [read_history(self.directory / "near" / f"beside-{k + 1}.csv")[0] for k in range(len(ends))]
+        alone = [read_history(self.directory / f"alone-{k}" / "history.csv")[0] for k in range(len(ends))]
+        for k, value in enumerate(keys.values()):
+            for name in near[0]:
+                derivatives.append([(h[2 * k][name] - h[2 * k + 1][name]) / (2 * step * value) for h in (near, alone)])
+        return derivatives
+
+    def test_equilibria_beside_a_run(self):
+        """Derivatives by numbers of material, contact and geometry are those of runs alone, to 1e-6. With a surface law,
+        runs alone end at 1e-9 of the energy, so that their differences are known to 1e-2 only."""
+        self.scene(LAYER, "layer")
+        keys = {"constants.E": 1, "constants.w": 0.02, "constants.width": 1.2, "contact.ball.partner.radius": 1}
+        for near, alone in self.derivatives("layer.toml", keys):
+            self.assertLessEqual(np.abs(near - alone).max(), 1e-6 * np.abs(alone).max())
+        self.scene(LAYER.replace("gamma = 0,", "gamma = 0.05,") + SKIN, "skin")
+        pairs = self.derivatives("skin.toml", {"constants.gamma": 0.05})
+        for near, alone in pairs:
+            self.assertLessEqual(np.abs(near - alone).max(), 5e-2 * np.abs(alone).max())
+        self.assertGreater(np.abs(pairs[-1][0]).max(), 0.01)
+        self.refused(["run", "bar.toml", "--beside", "body.bar.cells=[2, 2, 2]"], 3, "has other particles")
+        self.refused(["run", "bar.toml", "--overwrite", "--beside", "body.bar.material.my=1"], 3, "body.bar.material.my")
+
     def test_tension_and_viscosity_from_an_oscillation(self):
         """The example of the guide, coarser: the exact solution of a plane drop with noise of 2 % of its amplitude, times
         in ms. The drop of the scene is slightly compressible, which changes its values by up to 0.5 % of the amplitude."""
@@ -163,6 +224,17 @@ class Fit(ProgramTest):
             self.assertLess(abs(found[name]["value"] - true), 3 * found[name]["deviation"] + 0.01 * true)
         self.assertLess(found["gamma"]["deviation"], 0.02)
         self.assertLess(found["viscosity"]["deviation"], 0.01)
+
+    def test_shipped_fits(self):
+        """All can be read. Data of the tension test are those of the closed form, with noise of 2 % and 0.003 mm."""
+        for path in sorted((INPUTS / "fits").glob("*.toml")):
+            if "[[parameter]]" in path.read_text():
+                read_fit_file(path)
+        data = np.loadtxt(INPUTS / "fits/tension_neo_hookean.csv", delimiter=",", skiprows=2)
+        true = np.array([tension(1 + extension / 4, 200, 500) for extension in data[:, 0]])
+        noise = np.column_stack([(data[:, 1] / true[:, 0] - 1) / 0.02, (data[:, 2] - true[:, 1]) / 0.003])
+        self.assertLess(np.abs(noise).max(), 4)
+        self.assertGreater(noise.std(), 0.5)
 
     def test_values_bounds_and_parameters_that_cannot_be_told_apart(self):
         """One force of a small stretch gives only a sum of the moduli, and no error."""

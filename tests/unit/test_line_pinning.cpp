@@ -13,14 +13,14 @@ namespace {
 /// A drop on a plane, with a line that is held by these forces.
 template <int D>
 struct Pinned {
-  Scene<D> scene =
-      test::scene_of<D>("dimension = " + std::to_string(D) +
-                        "\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"cap\"\n" +
-                        "contact_angle = 70\ncore = 4\n" +
-                        (D == 3 ? "layers = 2\n" : "rings = 2\n") + example_liquid() +
-                        "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[wetted]]\nbody = "
-                        "\"drop\"\nface = \"flat\"\n"
-                        "contact_angle = 70\nadvancing_angle = 90\nreceding_angle = 60\n");
+  Scene<D> scene = test::scene_of<D>(
+      "dimension = " + std::to_string(D) +
+      "\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"cap\"\nradius = 1\n" +
+      "contact_angle = 70\ncore = 4\n" + (D == 3 ? "layers = 2\n" : "rings = 2\n") +
+      example_liquid() +
+      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[wetted]]\nbody = "
+      "\"drop\"\nface = \"flat\"\n"
+      "contact_angle = 70\nadvancing_angle = 90\nreceding_angle = 60\n");
   ForceTerm& term = *scene.system.terms.back();
   NodalVectors rest = test::zeros(scene.initial.u);
 
@@ -75,7 +75,8 @@ TEST(LinePinning, ProblemsOfScenesAreNamed) {
   const auto expect = [](const std::string& angles, const std::string& words) {
     EXPECT_THROW_WITH(
         test::scene_of<2>(
-            "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"cap\"\n"
+            "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"cap\"\nradius = "
+            "1\n"
             "contact_angle = 70\ncore = 4\nrings = 2\n" +
             example_liquid() +
             "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[wetted]]\nbody = \"drop\"\n"

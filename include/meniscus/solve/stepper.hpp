@@ -71,6 +71,14 @@ class Stepper {
   /// Effort of the steps besides forces, for the end of the log; may be empty.
   virtual std::string effort() const { return ""; }
 
+  /// The change of the displacement coefficients of the equilibrium `state` by small forces, to
+  /// first order. Empty if the stepper finds no equilibria of solids. Throws SolveError if the
+  /// equilibrium is not stable.
+  virtual std::optional<NodalVectors> response(const State& /*state*/,
+                                               const NodalVectors& /*force*/) {
+    return {};
+  }
+
   /// Saves or restores the values that determine how the run continues. `state` is the state in the
   /// same archive.
   virtual void archive(const Archive&, const State&) {}

@@ -7,10 +7,11 @@
 namespace meniscus {
 namespace {
 
-/// tr C' - 3 for H = F - I.
+/// tr C' - 3 for H = F - I, without its parts of first order, which cancel (as in yeoh.cpp).
 Lanes isochoric_stretch(const Tensor<Lanes>& H) {
-  const Lanes s = expm1((-2.0 / 3.0) * log1p(volume_change(H)));
-  return 3.0 * s + (2.0 * (1.0 + s)) * trace(green_strain(H));
+  const Lanes change = volume_change(H), x = (-2.0 / 3.0) * log1p(change);
+  return 2.0 * (0.5 * contract(H, H) - higher_volume_change(H) - log1p_remainder(change)) +
+         3.0 * exp_remainder(x) + 2.0 * trace(green_strain(H)) * expm1(x);
 }
 
 /// C' - I for H = F - I.

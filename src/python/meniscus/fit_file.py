@@ -50,6 +50,16 @@ class Scene:
     settings: list[str]  # "key=value"
     data: list[Data]
 
+    @property
+    def finds_equilibria(self) -> bool:
+        """True if its solver is newton and it has no stages."""
+        scene = tomllib.loads(text_of(self.file))
+        solver = scene.get("time", {}).get("solver")
+        for setting in self.settings:
+            key, _, value = setting.partition("=")
+            solver = value.strip('"') if key == "time.solver" else solver
+        return solver == "newton" and "stage" not in scene
+
 
 @dataclasses.dataclass
 class Parameter:

@@ -20,6 +20,9 @@ from .errors import Error, FileError, InputError, SolveError
 from .fit_file import REDUCTIONS, Data, FitFile, Scene
 from .results import read_history, text_of
 
+Pair = tuple[np.ndarray, np.ndarray, float]  # two points, and how far apart they are
+BESIDE = "; beside"  # ends the keys of points that a run has followed
+
 
 class Stopped(Error):
     """The fit was stopped from outside. The same request goes on."""
@@ -34,10 +37,10 @@ class Model:
         self.threads = threads or max(1, (os.cpu_count() or 1) // parallel)
         self._pool = concurrent.futures.ThreadPoolExecutor(parallel)
         self._going, self._lock, self._stopped = set(), threading.Lock(), False
+        self._alone = set()  # scenes whose equilibria cannot be followed
         self._kept = directory / "evaluations.json"
         self._inputs = self._hash()
         self._known = self._read()
-        self.units = {}  # of data: those of the history
 
     def _hash(self):
         texts = [text_of(self.request.path)] + [text_of(scene.file) for scene in self.request.scenes]
@@ -55,67 +58,104 @@ class Model:
 
     @property
     def runs(self) -> int:
-        return len(self._known)
+        return sum(not key.endswith(BESIDE) for key in self._known)
 
-    def values(self, points: list[np.ndarray], refine: float = 1) -> list[np.ndarray | Error]:
+    def values(self, points: list[np.ndarray], refine: float = 1, beside: list[np.ndarray] = ()) -> list[np.ndarray | Error]:
         """The values at several points, whose runs are made at the same time: an error for a point at which a
-        run fails."""
-        jobs = {}
+        run fails. Runs through equilibria also follow those of the points `beside`, which are near."""
+        numbers = range(len(self.request.scenes))
+        failures = self._make([(point, number) for point in points for number in numbers], refine, beside)
+        found = []
         for point in points:
-            for number, scene in enumerate(self.request.scenes):
-                key = self._key(point, number, refine)
-                if key not in self._known and key not in jobs:
-                    jobs[key] = self._pool.submit(self._run, scene, point, refine)
-        failures = {}
+            keys = [self._key(point, number, refine) for number in numbers]
+            failed = [failures[key] for key in keys if key in failures]
+            found.append(failed[0] if failed else np.concatenate([self._known[key] for key in keys]))
+        return found
+
+    def derivatives(self, near: list[Pair], far: list[Pair]) -> np.ndarray:
+        """Derivatives of all values, [value, pair]: differences over the pairs `near`, where a run has followed
+        their equilibria, and otherwise over the pairs `far`, by runs. Raises the error of a run that fails."""
+        numbers = range(len(self.request.scenes))
+        followed = [all(self._key(p, n, 1) + BESIDE in self._known for pair in near for p in pair[:2]) for n in numbers]
+        failures = self._make([(p, n) for pair in far for p in pair[:2] for n in numbers if not followed[n]])
+        for failure in failures.values():
+            raise failure
+        parts = []
+        for number in numbers:
+            pairs, mark = (near, BESIDE) if followed[number] else (far, "")
+            ends = [[np.array(self._known[self._key(p, number, 1) + mark]) for p in pair[:2]] for pair in pairs]
+            parts.append([(above - below) / pair[2] for (below, above), pair in zip(ends, pairs)])
+        return np.concatenate(parts, axis=1).T
+
+    def _make(self, wanted, refine=1, beside=()):
+        """Makes the runs of pairs (point, number of the scene) that are not known; returns errors by key."""
+        jobs, failures = {}, {}
+        for point, number in wanted:
+            key = self._key(point, number, refine)
+            if key not in self._known and key not in jobs:
+                jobs[key] = self._pool.submit(self._run, number, point, refine, beside)
         for key, job in jobs.items():
             try:
-                self._keep(key, job.result())
+                self._keep(job.result())
             except (SolveError, OutOfReach) as error:
                 failures[key] = error
-        return [self._assembled(point, refine, failures) for point in points]
-
-    def _assembled(self, point, refine, failures):
-        keys = [self._key(point, number, refine) for number in range(len(self.request.scenes))]
-        return next((failures[k] for k in keys if k in failures), None) or np.concatenate([self._known[k] for k in keys])
+        return failures
 
     def _key(self, point, number, refine):
         texts = [parameter.text(x) for parameter, x in zip(self.request.parameters, point)]
         return "; ".join([f"scene {number}", *texts, f"refine {refine:g}"])
 
-    def _keep(self, key, values):
+    def _keep(self, values):
         with self._lock:
-            self._known[key] = values
+            self._known |= values
             made = self._kept.with_suffix(".new")
             made.write_text(json.dumps({"inputs": self._inputs, "values": self._known}), encoding="utf-8")
             os.replace(made, self._kept)
+
+    def settings(self, point: np.ndarray) -> list[str]:
+        """What a point changes in a scene, "key=value"."""
+        return [f"{key}={parameter.text(x)}" for parameter, x in zip(self.request.parameters, point) for key in parameter.keys]
 
     def words(self, scene: Scene, point: np.ndarray, refine: float, output: pathlib.Path) -> list[str]:
         """The command line of a run."""
         words = [self.program, "run", str(scene.file), "--quiet", "--overwrite", "--output", str(output)]
         words += ["--threads", str(self.threads)]
-        for setting in scene.settings:
+        for setting in scene.settings + self.settings(point):
             words += ["--set", setting]
-        for parameter, x in zip(self.request.parameters, point):
-            for key in parameter.keys:
-                words += ["--set", f"{key}={parameter.text(x)}"]
         return words + (["--refine", f"{refine:g}"] if refine != 1 else [])
 
-    def _run(self, scene, point, refine):
+    def _run(self, number, point, refine, beside):
+        """Values by key. A scene whose equilibria cannot be followed is run alone from then on."""
+        scene, key = self.request.scenes[number], self._key(point, number, refine)
+        if beside and scene.finds_equilibria and number not in self._alone:
+            try:
+                first, *others = self._results(scene, point, refine, beside)
+                return {key: first} | {self._key(p, number, refine) + BESIDE: v for p, v in zip(beside, others)}
+            except InputError:
+                self._alone.add(number)
+            except (SolveError, OutOfReach):
+                pass
+        return {key: self._results(scene, point, refine, [])[0]}
+
+    def _results(self, scene, point, refine, beside):
+        """The values of a run, and those of the points that it follows."""
         with tempfile.TemporaryDirectory(prefix="run-", dir=self.directory) as folder:
             output = pathlib.Path(folder)
+            words = self.words(scene, point, refine, output)
+            for near in beside:
+                words += ["--beside", "; ".join(self.settings(near))]
             with self._lock:
                 if self._stopped:
                     raise Stopped("stopped")
-                process = subprocess.Popen(
-                    self.words(scene, point, refine, output), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-                )
+                process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
                 self._going.add(process)
             with process:
                 said = process.communicate()[1].strip()
             self._going.discard(process)
             if process.returncode not in (0, 7):
                 self._raise(process.returncode, said, point)
-            return self._compared(scene, output)
+            files = ["history.csv"] + [f"beside-{k}.csv" for k in range(1, len(beside) + 1)]
+            return [self._compared(scene, output, file) for file in files]
 
     def _raise(self, code, said, point):
         if code < 0 or code > 128 or self._stopped:
@@ -125,11 +165,11 @@ class Model:
         kind = {3: InputError, 4: SolveError, 5: FileError}.get(code, SolveError)
         raise kind(f"with {at}: {said or f'the run ended with exit code {code}'}")
 
-    def _compared(self, scene, output):
+    def _compared(self, scene, output, file):
         """The values of the run that belong to the measured ones, in the units of the data."""
         values = []
         for data in scene.data:
-            history, units = read_history(output / data.stage / "history.csv")
+            history, units = read_history(output / data.stage / file)
             values += list(compared(data, history, units))
         return values
 
@@ -154,12 +194,16 @@ class OutOfReach(Error):
 
 
 def compared(data: Data, history: dict[str, np.ndarray], units: dict[str, str]) -> np.ndarray:
-    """The values of a history at the places of the data, in the units of the data."""
+    """The values of a history at the places of the data, in the units of the data. Between records, curves are
+    cubic and as monotonic as the records."""
+    from scipy.interpolate import PchipInterpolator  # pylint: disable=import-outside-toplevel
+
     y = column(data.y.of, history) * factor(units[data.y.of], data.y.unit, data.name)
     times = history["time"]
     shown = (times >= data.begin) & (times <= data.end)
-    if not shown.any():
-        raise InputError(f"{data.name}: the run has no record between the times {data.begin:g} and {data.end:g}")
+    if shown.sum() < (1 if data.x is None else 2):
+        raise InputError(f"{data.name}: the run has {shown.sum()} records between the times {data.begin:g} and {data.end:g}; "
+                         "expected are more")  # fmt: skip
     if data.x is None:
         return np.array([REDUCTIONS[data.reduce](y[shown])])
     x = (column(data.x.of, history) * factor(units[data.x.of], data.x.unit, data.name))[shown]
@@ -173,7 +217,7 @@ def compared(data: Data, history: dict[str, np.ndarray], units: dict[str, str]) 
         raise OutOfReach(f"{data.name}: {data.x.of} of the run is between {low:.6g} and {high:.6g}, but the data reach from "
                          f"{data.places.min():.6g} to {data.places.max():.6g}")  # fmt: skip
     order = np.argsort(x)
-    return np.interp(data.places, x[order], y[shown][order])
+    return PchipInterpolator(x[order], y[shown][order])(data.places)
 
 
 def column(name: str, history: dict[str, np.ndarray]) -> np.ndarray:

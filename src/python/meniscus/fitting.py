@@ -17,7 +17,8 @@ from .errors import Error, FileError, InputError
 from .fit_file import Data, Parameter, read_fit_file
 from .fit_model import Model
 
-STEP = 0.01  # of the differences: a share of the parameter
+STEP = 0.01  # of the differences of runs: a share of the parameter
+SMALL_STEP = 1e-4  # of the differences of equilibria, whose errors are a millionth of those of other runs
 INDISTINGUISHABLE = 0.99  # correlation of two parameters
 
 
@@ -102,7 +103,7 @@ def weights_of(data: list[Data]) -> np.ndarray:
 
 
 class Residuals:
-    """(value of the model - measured value) / error, and their derivatives by z, by central differences."""
+    """(value of the model - measured value) / error, and their derivatives by z."""
 
     def __init__(self, model: Model, scales: Scales, data: list[Data], told: Callable[[str], None]):
         self.model, self.scales, self.told = model, scales, told
@@ -111,14 +112,14 @@ class Residuals:
 
     def at(self, z, refine=1.0):
         """Raises the error of a run that fails."""
-        values = self.model.values([self.scales.p(z)], refine)[0]
+        values = self._values(z, refine)
         if isinstance(values, Error):
             raise values
         return (values - self.measured) / self.errors
 
     def tried(self, z):
         """NaN where a run fails: the next trial is closer to the last good one."""
-        values = self.model.values([self.scales.p(z)])[0]
+        values = self._values(z)
         good = not isinstance(values, Error)
         residuals = (values - self.measured) / self.errors if good else np.full(len(self.measured), np.nan)
         shown = ", ".join(f"{p.name} = {p.text(x)}" for p, x in zip(self.model.request.parameters, self.scales.p(z)))
@@ -126,17 +127,20 @@ class Residuals:
         return residuals
 
     def slopes(self, z):
-        n, points = len(z), []
-        below = np.maximum(z - STEP, self.scales.low)
-        above = np.minimum(z + STEP, self.scales.high)
-        for k in range(n):
-            for end in (below, above):
-                points.append(self.scales.p(np.where(np.arange(n) == k, end, z)))
-        values = self.model.values(points)
-        for value in values:
-            if isinstance(value, Error):
-                raise value
-        return np.stack([(values[2 * k + 1] - values[2 * k]) / (above[k] - below[k]) / self.errors for k in range(n)], axis=1)
+        return self.model.derivatives(self._pairs(z, SMALL_STEP), self._pairs(z, STEP)) / self.errors[:, None]
+
+    def _values(self, z, refine=1.0):
+        beside = [point for pair in self._pairs(z, SMALL_STEP) for point in pair[:2]] if refine == 1 else []
+        return self.model.values([self.scales.p(z)], refine, beside)[0]
+
+    def _pairs(self, z, step):
+        """For each parameter, points that differ in this parameter, and the difference of z."""
+        pairs = []
+        for k in range(len(z)):
+            below, above = max(z[k] - step, self.scales.low[k]), min(z[k] + step, self.scales.high[k])
+            ends = [self.scales.p(np.where(np.arange(len(z)) == k, end, z)) for end in (below, above)]
+            pairs.append((*ends, above - below))
+        return pairs
 
 
 def fit(

@@ -71,6 +71,9 @@ class NewtonMethod {
   /// Sets stability() for an equilibrium `u` found by another method, and returns it. Throws like
   /// prepare().
   Real find_stability(Real time, const NodalVectors& u);
+  /// The change of the equilibrium `u` by small forces: K^-1 f with the tangent K. Throws
+  /// SolveError if the equilibrium is not stable.
+  NodalVectors response(Real time, const NodalVectors& u, const NodalVectors& force);
   /// Energy left by the last solution, relative to the largest energy released; with factors of the
   /// tangent, forces left relative to loads and reactions.
   Real left() const { return left_; }

@@ -5,6 +5,8 @@
 #include "parallel/nodal_algebra.hpp"
 #include "solve/newton/newton_method.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -146,6 +148,33 @@ bool NewtonMethod<D>::stays(Real time, Point& point, Solution& solution) {
 }
 
 template <int D>
+NodalVectors NewtonMethod<D>::response(Real time, const NodalVectors& u,
+                                       const NodalVectors& force) {
+  constexpr Real exact = 1e-10;
+  const Motion motion{time, u, still_};
+  free_ = FreeMotions<D>(system_, motion, spacing_);
+  r_ = force;
+  if (system_.constraints) system_.constraints->balance(r_, lambda_);
+  free_.remove_from(r_);
+  bool stable;
+  if (factors_ && !TangentFactors<D>::others_resist(system_, motion)) {
+    factor_at(time, u);
+    stable = negative_ == 0 && solve_tangent(time, u, r_, exact);
+    off_.clear();
+  } else {
+    Lanczos seen;
+    g_ = r_;
+    stable = !conjugate_gradients(time, u, seen, by_elements(), [](Real first, Real left) {
+      return left <= exact * exact * first;
+    });
+  }
+  if (!stable)
+    throw SolveError(
+        fmt::format("the equilibrium at t = {:.6g} is not stable: there are no derivatives", time));
+  return s_;
+}
+
+template <int D>
 void NewtonMethod<D>::leave_saddle() {
   s_ = p_;
   if (dot(s_, r_) < 0)
@@ -158,7 +187,8 @@ void NewtonMethod<D>::leave_saddle() {
   template void NewtonMethod<D>::find_lowest_of_reference();                \
   template Real NewtonMethod<D>::find_stability(Real, const NodalVectors&); \
   template bool NewtonMethod<D>::stays(Real, Point&, Solution&);            \
-  template void NewtonMethod<D>::leave_saddle();
+  template void NewtonMethod<D>::leave_saddle();                            \
+  template NodalVectors NewtonMethod<D>::response(Real, const NodalVectors&, const NodalVectors&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -41,6 +41,9 @@ class QuasiStatics final : public Stepper<D> {
   std::string effort() const override { return method_.effort(); }
   void stop_when(const std::function<bool()>& asked) override { method_.stop_when(asked); }
   std::string doing() const override { return method_.doing(); }
+  std::optional<NodalVectors> response(const State& state, const NodalVectors& force) override {
+    return method_.response(state.time, state.u, force);
+  }
   void archive(const Archive& a, const State& state) override;
 
   const NewtonMethod<D>& method() const { return method_; }

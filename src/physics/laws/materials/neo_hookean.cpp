@@ -11,7 +11,7 @@ struct NeoHookean : LameSolid {
   static constexpr std::string_view type_name = "neo_hookean";
   static constexpr std::string_view meaning =
       "W = mu/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2, I1 = tr F^T F; programs that write "
-      "lambda/2 ln^2 J, as FEBio, have another one, which differs by 14 % at 20 % strain";
+      "lambda/2 ln^2 J, as FEBio, have another one with the same moduli at small strains";
   static Rows<NeoHookean> rows() { return rows_of<NeoHookean>(); }
 
   /// Energy per reference volume. With (I1 - 3)/2 = tr H + H:H/2, the first-order parts of (I1 -

@@ -36,14 +36,18 @@ struct Yeoh {
   Real p_wave_modulus() const { return bulk_modulus + 8.0 / 3.0 * c1; }
   Real bulk_over_shear() const { return bulk_modulus / (2 * c1); }
 
-  /// s - 1 with s = J^(-2/3), and I - 3. Their parts of first order cancel up to round-off.
+  /// J - 1, s - 1 with s = J^(-2/3), tr E, and I - 3. With x = ln s and tr E - ln J = H:H/2 - ...,
+  /// I - 3 = 2 (tr E - ln J) + 3 (e^x - 1 - x) + 2 tr E (e^x - 1) has no parts of first order.
   template <class T>
   struct Invariant {
-    T change, less_1, value;
-    explicit Invariant(const Tensor<T>& H)
-        : change(volume_change(H)),
-          less_1(expm1((-2.0 / 3.0) * log1p(change))),
-          value(3.0 * less_1 + 2.0 * (1.0 + less_1) * trace(green_strain(H))) {}
+    T change, less_1, strain, value;
+    [[gnu::always_inline]] explicit Invariant(const Tensor<T>& H)
+        : change(volume_change(H)), strain(trace(green_strain(H))) {
+      const T x = (-2.0 / 3.0) * log1p(change);
+      less_1 = expm1(x);
+      value = 2.0 * (0.5 * contract(H, H) - higher_volume_change(H) - log1p_remainder(change)) +
+              3.0 * exp_remainder(x) + 2.0 * strain * less_1;
+    }
   };
 
   template <class T>
@@ -59,7 +63,7 @@ struct Yeoh {
   [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     const Invariant<T> I(H);
     const T slope = 2.0 * (1.0 + I.less_1) * (c1 + I.value * (2 * c2 + 3 * c3 * I.value));
-    const T strain = (2.0 / 3.0) * trace(green_strain(H)), over_J = 1.0 / (1.0 + I.change);
+    const T strain = (2.0 / 3.0) * I.strain, over_J = 1.0 / (1.0 + I.change);
     const T a = slope * (1.0 + strain) * over_J, b = bulk_modulus * I.change;
     const T diagonal = slope * over_J * (higher_volume_change(H) - strain * (1.0 + trace(H))) +
                        b * (1.0 + trace(H));
