@@ -138,7 +138,7 @@ def distance(columns, curve):
 def verdict(obtained, published, within, explained):
     if abs(obtained - published) <= within:
         return "met"
-    return "missed, explained" if explained else "MISSED"
+    return "missed, see below" if explained else "MISSED"
 
 
 def rows_of_case(entry, case, options):
@@ -146,7 +146,7 @@ def rows_of_case(entry, case, options):
     explained, others = case.get("explained", {}), case.get("others", {})
     if known["code"] not in (0, 7):
         remark = explained.get("run", known["said"])
-        return [row(entry, case, "", verdict="missed, explained" if "run" in explained else "failed", remark=remark)]
+        return [row(entry, case, "", verdict="missed, see below" if "run" in explained else "failed", remark=remark)]
     bars = error_bars(entry, case, options)
     found = []
     for name, obtained, published, within, _ in runlog.Log(folder / "run.log").expected:

@@ -44,6 +44,7 @@ def deviations(rows):
     axes.set_ylim(len(rows) - 0.5, -0.5)
     widest = max(100 * row["within"] / abs(row["published"]) for row in rows)
     axes.set_xscale("symlog", linthresh=max(widest, 1e-3))
+    axes.xaxis.set_major_formatter("{x:g}")
     axes.set_xlabel("distance from the published value, %")
     axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
     return figure
