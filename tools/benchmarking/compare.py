@@ -68,7 +68,8 @@ def call(arguments, threads):
 
 
 def run(entry, case, options):
-    """Runs a case unless it is there already. Returns the folder, and {"code", "said", "seconds"}."""
+    """Runs a case unless it is there already. Returns the folder, and {"code", "said", "seconds"}; None in their place
+    with --finished if the case is not there."""
     folder = folder_of(entry, case, options.output)
     summary = folder / "benchmark.json"
     mark = digest(entry, case, options.program)
@@ -76,6 +77,8 @@ def run(entry, case, options):
         known = json.loads(summary.read_text(encoding="utf-8"))
         if known["digest"] == mark:
             return folder, known
+    if options.finished:
+        return folder, None
     print(f"{entry['name']} {case['name']}".strip(), flush=True)
     arguments = [options.program, "run", entry["scene"], "--output", folder, "--overwrite", "--quiet", *settings(case)]
     code, said, seconds = call(arguments, options.threads)
@@ -143,6 +146,8 @@ def verdict(obtained, published, within, explained):
 
 def rows_of_case(entry, case, options):
     folder, known = run(entry, case, options)
+    if known is None:
+        return [row(entry, case, "", verdict="not run")]
     explained, others = case.get("explained", {}), case.get("others", {})
     if known["code"] not in (0, 7):
         remark = explained.get("run", known["said"])

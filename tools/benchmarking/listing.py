@@ -51,10 +51,10 @@ def text(rows):
 
 def summary(rows):
     """How many rows and benchmarks there are of each verdict."""
-    kinds = ("met", "missed, see below", "MISSED", "failed", "not expressed")
+    kinds = ("met", "missed, see below", "MISSED", "failed", "not run", "not expressed")
     counts = {kind: [row for row in rows if row["verdict"] == kind] for kind in kinds}
     told = [f"{len(some)} {kind}" for kind, some in counts.items() if some]
-    run = {row["benchmark"] for row in rows if row["verdict"] != "not expressed"}
+    run = {row["benchmark"] for row in rows if row["verdict"] not in ("not run", "not expressed")}
     return f"\n{len(run)} benchmarks run; results: {', '.join(told)}"
 
 
