@@ -83,7 +83,7 @@ class GuideScenes(ProgramTest):
 
     def test_they_run(self):
         """A scene with expected values is run to its end, others by a few steps."""
-        (self.directory / "meshes").symlink_to(ROOT / "inputs" / "meshes")
+        (self.directory / "meshes").symlink_to(ROOT / "inputs" / "cells" / "meshes")
         scenes = 0
         for path in sorted((ROOT / "inputs" / "guide").glob("*.md")):
             blocks = re.findall(r"^```toml\n(.*?)^```", text_of(path), re.DOTALL | re.MULTILINE)
