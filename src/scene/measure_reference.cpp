@@ -101,6 +101,10 @@ void for_measure_tables(const std::function<bool(const MeasureTable&)>& found) {
                                        "body = \"shell\"\nsurface = \"inner\"\npressure = 0.3\n"));
     if (name == "contact")
       for (std::string& scene : contact_scenes()) scenes.push_back(std::move(scene));
+    if (name == "wetted")
+      scenes.push_back(scene_with_load(dimensions, name,
+                                       "body = \"drop\"\nface = \"flat\"\nadvancing_angle = "
+                                       "80\nreceding_angle = 60\n"));
     if (name == "surface")
       for (const auto& [law, entry] : surface_laws())
         if (law != "anchoring")  // of a nematic, above

@@ -214,10 +214,10 @@ class Fit(ProgramTest):
         noise = [y - amplitude * oscillation(t / 1e3, 0.1, 1) for t, y in data]
         self.assertLess(np.abs(noise).max(), 3 * 0.02 * amplitude)
         self.assertGreater(np.std(noise), 0.01 * amplitude)
-        for name in ("drop_2d.toml", "fits/drop_oscillation.csv"):
+        for name in ("drops/drop_2d.toml", "fits/drop_oscillation.csv"):
             (self.directory / name).parent.mkdir(exist_ok=True)
             (self.directory / name).write_text((INPUTS / name).read_text())
-        text = (INPUTS / "fits/drop_oscillation.toml").read_text().replace("../drops/drop_2d", "drop_2d").replace('"drop_osc', '"fits/drop_osc')
+        text = (INPUTS / "fits/drop_oscillation.toml").read_text().replace("../drops/drop_2d", "drops/drop_2d").replace('"drop_osc', '"fits/drop_osc')
         coarse = 'set = { "body.drop.core" = 6, "body.drop.rings" = 3 }\n\n[[scene.curve]]'
         found, _, _ = self.fit(text.replace("[[scene.curve]]", coarse))
         for name, true in (("gamma", 1.0), ("viscosity", 0.1)):

@@ -692,7 +692,7 @@ class Reports(ProgramTest):
         self.assertEqual({re.match('(.*?"ball")', line)[1] for line in headings("ball")},
                          {'[[body]] shape = "ball"', '[contact.partner] type = "ball"'})
         text = self.call("keys", "youngs_modulus").stdout
-        self.assertEqual(re.findall(r"^  (\w+)", text, re.M), 3 * ["key", "youngs_modulus"])
+        self.assertEqual(re.findall(r"^  (\w+)", text, re.M), 4 * ["key", "youngs_modulus"])
         self.assertIn("  cutoff ", self.call("keys", "CUT-OFF").stdout)
         self.assertEqual([line.split(":")[0] for line in headings("gravity")], ["[[body_force]]"])
         self.assertEqual({line.split(" (")[0] for line in headings("cube")}, {'[[body]] shape = "box"'})
