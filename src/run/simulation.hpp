@@ -40,7 +40,7 @@ class Simulation {
   /// incomplete.
   void advance();
 
-  /// Moves to the equilibrium near that of `base`, a simulation of the same scene with slightly
+  /// Moves to the equilibrium near the one of `base`, a simulation of the same scene with slightly
   /// other numbers, by Newton's method with the tangent of `base` (quasi-statics note 11). Throws
   /// InputError if the scene has other particles or the stepper of `base` finds no equilibria of
   /// solids, and SolveError if there is no equilibrium near, or that of `base` is not stable.

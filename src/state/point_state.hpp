@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a law with a memory keeps at its points between steps.
+// Values that a law with a memory keeps at its points between steps.
 #pragma once
 #include "numbers/tensor.hpp"
 #include "parallel/gathered.hpp"

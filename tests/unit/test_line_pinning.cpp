@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pinned contact lines: forces of lines that stick and slip, and what they lose.
+// Pinned contact lines: forces and losses of lines that stick and slip.
 #include "cases.hpp"
 #include "physics/surface/line_pinning.hpp"
 #include "support.hpp"

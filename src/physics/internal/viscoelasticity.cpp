@@ -42,7 +42,8 @@ class Viscoelasticity final : public StressPointForce<D, CellRule<D>>, public Co
         heat += w * points_.heat_density(g, weights, H);
         if (force.energies) stored += w * points_.energy_density(g, weights, H);
       }
-      // The power is a square of what has not relaxed yet, which is about linear in time.
+      // The power is a square of the strain that has not relaxed yet, which is about linear in
+      // time.
       const Real before = at(heat_before_, chunk), after = sum(heat);
       const Real lost = third * (before + std::sqrt(std::max(before * after, 0.0)) + after);
       this->of_chunks()[chunk] = {lost, 0, sum(stored)};

@@ -11,8 +11,8 @@
 namespace meniscus {
 
 /// The force of the branches (viscoelasticity note), integrated over the nodal cells of the rule
-/// "q_scni". At most MaxwellPoints::most_branches. Their energy is stored, and what they lose is
-/// heat.
+/// "q_scni". At most MaxwellPoints::most_branches. They store energy,
+/// and their loss is heat.
 template <int D>
 std::unique_ptr<ForceTerm> viscoelasticity(const Body<D>& body,
                                            std::vector<MaxwellBranch> branches);

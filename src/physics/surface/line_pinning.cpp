@@ -181,7 +181,7 @@ class LinePinning final : public ForceTerm, public ContinuedTerm {
     return way;
   }
 
-  /// The way of a bond beyond what it can give.
+  /// The way of a bond beyond its longest elastic way.
   Real slip(Real way) const {
     return way -
            std::clamp(way, -hold_.receding / hold_.stiffness, hold_.advancing / hold_.stiffness);

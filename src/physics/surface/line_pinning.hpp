@@ -8,9 +8,9 @@
 
 namespace meniscus {
 
-/// What holds a contact line, as forces per length. The line moves outward where more than
-/// `advancing` pulls it, and inward where more than `receding` does. Below, an elastic bond of this
-/// stiffness holds it, which gives way by advancing/stiffness at most.
+/// Largest forces per length that hold a contact line. The line moves outward where a larger force
+/// than `advancing` pulls it, and inward where a larger one than `receding` does. Below, an elastic
+/// bond of this stiffness holds the line, which moves by advancing/stiffness at most.
 struct LineHold {
   Real advancing, receding, stiffness;
 };
