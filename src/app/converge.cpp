@@ -8,7 +8,7 @@
 #include "app/series_table.hpp"
 #include "io/files.hpp"
 #include "meniscus/error.hpp"
-#include "scene/plan.hpp"
+#include "scene/scene.hpp"
 
 #include <fmt/core.h>
 
@@ -25,62 +25,96 @@ constexpr const char* refine_key = "resolution.refine";
 
 using Expectations = std::vector<std::pair<std::string, ExpectSettings>>;
 
+/// The edges of meshes can only be halved.
+bool has_mesh(const Block& root) {
+  const std::vector<Block> bodies = root.tables("body");
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const Block& body) { return body.text("shape", "") == "mesh"; });
+}
+
+/// Values of resolution.refine: that of the scene times powers of the factor.
 std::vector<std::string> refinements_of(const ConvergeRequest& request) {
+  const SceneInput input = SceneInput::from_file(request.scene, request.set);
   Real factor = request.factor;
-  if (!(factor > 0))
-    factor = scene_dimension(SceneInput::from_file(request.scene, request.set)) == 2 ? 2 : 1.5;
+  if (!(factor > 0)) factor = scene_dimension(input) == 2 || has_mesh(input.root()) ? 2 : 1.5;
   std::vector<std::string> all;
   for (int level = 0; level < request.levels; ++level)
-    all.push_back(fmt::format("{:.6g}", std::pow(factor, level)));
+    all.push_back(fmt::format("{:.6g}", input.root().refinement() * std::pow(factor, level)));
   return all;
 }
 
-/// A scene at a level: the mean size of its cells relative to its own, and the expectations.
+/// The scene at a level; of a scene with stages, each stage as if it were the first.
+std::vector<SceneInput> scenes_of(const ConvergeRequest& request, const std::string& refinement) {
+  std::vector<std::string> settings = request.set;
+  settings.push_back(fmt::format("{}={}", refine_key, refinement));
+  const SceneInput input = SceneInput::from_file(request.scene, settings);
+  const std::vector<std::string> stages = input.stages();
+  if (stages.empty()) return {input};
+  std::vector<SceneInput> all;
+  for (const std::string& name : stages)
+    all.push_back(SceneInput::from_file(request.scene, settings, StageChoice{name, ""}));
+  return all;
+}
+
+/// A scene at a level: the mean size of its cells relative to its own, and the expectations. One
+/// that several stages have is that of the last of them.
 struct Level {
   Real h = 0;
   Expectations expected;
 };
 
 template <int D>
-Level level_of(const SceneInput& input) {
-  const Plan<D> plan = read_plan<D>(input);
+Level level_of(const std::vector<SceneInput>& scenes) {
   Real cells = 0;
-  for (const BodyPlan<D>& body : plan.bodies)
-    cells += static_cast<Real>(body.geometry.grid.cells.size());
-  Level level{std::pow(cells, -1.0 / D), {}};
-  level.expected = plan.expectations;
+  Level level;
+  for (const SceneInput& input : scenes) {
+    scene_dimension(input);  // must be read first
+    const Plan<D> plan = read_plan<D>(input);
+    if (cells == 0)
+      for (const BodyPlan<D>& body : plan.bodies)
+        cells += static_cast<Real>(body.geometry.grid.cells.size());
+    for (const auto& expected : plan.expectations) {
+      std::erase_if(level.expected, [&](const auto& of_stage_before) {
+        return of_stage_before.first == expected.first;
+      });
+      level.expected.push_back(expected);
+    }
+  }
+  level.h = std::pow(cells, -1.0 / D);
   return level;
 }
 
 Level level_of(const ConvergeRequest& request, const std::string& refinement) {
-  std::vector<std::string> settings = request.set;
-  settings.push_back(fmt::format("{}={}", refine_key, refinement));
-  const SceneInput input = SceneInput::from_file(request.scene, settings);
-  return scene_dimension(input) == 2 ? level_of<2>(input) : level_of<3>(input);
+  const std::vector<SceneInput> scenes = scenes_of(request, refinement);
+  return scene_dimension(scenes.front()) == 2 ? level_of<2>(scenes) : level_of<3>(scenes);
 }
 
-/// Names the lengths that change with the cells because the scene leaves them to the program.
-void say_lengths_of_cells(const ConvergeRequest& request) {
-  const SceneInput input = SceneInput::from_file(request.scene, request.set);
-  int k = 0;
-  for (const Block& contact : input.root().tables("contact")) {
-    if ((contact.has("contact_angle") || contact.has("adhesion")) && !contact.has("range") &&
-        !contact.has("sigma0"))
-      say("contact[{0}] has no range: it is half a facet and changes with the levels; "
-          "contact.range "
-          "holds it\n",
-          k);
-    ++k;
+template <int D>
+std::vector<std::pair<std::string, Real>> lengths_by_cells(const SceneInput& input) {
+  return build_scene<D>(input).lengths_by_cells;
+}
+
+/// Names the lengths of physics that follow the cells because the scene leaves them to the program.
+/// With --range fixed, the result sets them to what they are in the first level.
+ConvergeRequest with_lengths(ConvergeRequest request) {
+  const auto scenes = scenes_of(request, refinements_of(request).front());
+  const bool stages = !SceneInput::from_file(request.scene, request.set).stages().empty();
+  if (stages && (request.hold_lengths || request.budget))
+    throw InputError(
+        fmt::format("{}: has stages; --range fixed and --budget are for a scene without [[stage]]",
+                    request.scene));
+  for (const SceneInput& input : scenes) {
+    const auto lengths =
+        scene_dimension(input) == 2 ? lengths_by_cells<2>(input) : lengths_by_cells<3>(input);
+    for (const auto& [key, value] : lengths) {
+      say("{} is {:.4g} {} at first, by the size of the cells: {}\n", key, value,
+          input.root().units().symbol(dimension::length),
+          request.hold_lengths ? "it is held"
+                               : "it changes with the levels; --range fixed holds it");
+      if (request.hold_lengths) request.set.push_back(fmt::format("{}={:.9g}", key, value));
+    }
   }
-  k = 0;
-  for (const Block& body : input.root().tables("body")) {
-    const auto material = body.is_array("material") ? std::nullopt : body.table("material");
-    if (material && material->has("frank_constant") && material->has("rotational_viscosity") &&
-        !material->has("core_length"))
-      say("body[{}].material has no core_length: it is two spacings and changes with the levels\n",
-          k);
-    ++k;
-  }
+  return request;
 }
 
 /// A result of the scene: a column of sweep.csv.
@@ -99,12 +133,15 @@ struct Levels {
 };
 
 SweptRuns fixed_of(const ConvergeRequest& request) {
-  const SweptRuns fixed = combinations_of(request.set);
-  for (const std::string& setting : request.set)
-    if (const SweptKey one = swept_key(setting); one.values.size() > 1)
+  std::vector<std::string> fixed;
+  for (const std::string& setting : request.set) {
+    const SweptKey one = swept_key(setting);
+    if (one.values.size() > 1)
       throw InputError(fmt::format("--set {}: has {} values; allowed is one, of all levels",
                                    setting, one.values.size()));
-  return fixed;
+    if (one.key != refine_key) fixed.push_back(setting);
+  }
+  return combinations_of(fixed);
 }
 
 /// The keys and values of all runs, and others that differ.
@@ -266,9 +303,10 @@ int report_budget(const ConvergeRequest& request, const Levels& levels, const Se
 
 }  // namespace
 
-int converge(const ConvergeRequest& request) {
+int converge(const ConvergeRequest& asked) {
+  fixed_of(asked);  // throws for --set with several values
+  const ConvergeRequest request = with_lengths(asked);
   const Levels levels = levels_of(request);
-  say_lengths_of_cells(request);
   std::vector<SweptRuns::Values> values;
   for (const std::string& refinement : levels.refinements) values.push_back({refinement});
   const SweptRuns runs = with_fixed(levels.fixed, {refine_key}, values);

@@ -13,9 +13,10 @@ struct ConvergeRequest {
   std::vector<std::string> set;  ///< "key=value", for all levels
   std::vector<std::string> of;   ///< columns of the history whose last value is reported, too
   int levels = 3;
-  Real factor = 0;      ///< by which the cells of a level are finer than before; 0: 2, in 3D 1.5
-  int threads = 0;      ///< 0: all cores
-  bool budget = false;  ///< also the errors of other approximations of the scene
+  Real factor = 0;  ///< by which the cells of a level are finer than before; 0: 2, in 3D 1.5
+  int threads = 0;  ///< 0: all cores
+  bool hold_lengths = false;  ///< lengths that follow the cells are those of the first level
+  bool budget = false;        ///< also the errors of other approximations of the scene
   bool overwrite = false;
 };
 

@@ -160,6 +160,13 @@ void add_converge_options(CLI::App& command, ConvergeRequest& request) {
       ->type_name("COLUMN")
       ->type_size(1)
       ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--range",
+          [&request](const std::string& word) { request.hold_lengths = word == "fixed"; },
+          "lengths that the scene leaves to the cells, such as the range of a contact: "
+          "fixed, as in the first level, or with the cells; with by default")
+      ->check(CLI::IsMember({"fixed", "with"}));
   command.add_flag("--budget", request.budget,
                    "also vary the ranges and bulk moduli of fluids, the step of dynamics and the "
                    "tolerances of relax, for a table of all errors of the scene itself");

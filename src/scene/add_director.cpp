@@ -38,6 +38,9 @@ void add_director(const Body<D>& body, NematicBody<D> nematic, Scene<D>& scene,
   assembly.note(fmt::format("body '{}': a director with the core length {:.4g} {}", body.name,
                             nematic.numbers.core_length,
                             assembly.units().symbol(dimension::length)));
+  if (nematic.core_by_cells)
+    assembly.length_by_cells(fmt::format("body.{}.material.core_length", body.name),
+                             nematic.numbers.core_length);
   auto frank =
       std::make_unique<FrankEnergy<D>>(body, number, nematic.numbers, std::move(nematic.rule));
   director->add(*frank);

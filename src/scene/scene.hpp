@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meniscus {
@@ -111,6 +112,9 @@ struct Scene : RunSettings {
   std::vector<PlannedRemap> remaps;
   std::vector<Wetting<D>> wetting;
   std::vector<DrawnPartner<D>> partners;
+  /// Lengths of physics that the input leaves to the size of the cells: the keys that would set
+  /// them, such as "contact[0].range", and their values.
+  std::vector<std::pair<std::string, Real>> lengths_by_cells;
   std::vector<std::string> notes;     ///< decisions while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
   std::vector<ContactBetween> contacts;

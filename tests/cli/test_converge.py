@@ -4,6 +4,7 @@
 error bars of its expectations. Usage: test_converge.py PROGRAM"""
 import csv
 import math
+import re
 import unittest
 
 import program
@@ -39,6 +40,41 @@ face = "x_max"
 force = [0, -1e-6]
 [expect]
 deflection = { of = "tip.displacement_y", value = -3.66e-3, within_relative = 0.02 }
+"""
+
+# A drop of a liquid in 2D that touches a wall, whose contact has no range.
+TOUCHING = """
+dimension = 2
+time = { end = 0.02 }
+[output]
+measures = ["drop.aspect"]
+[[body]]
+name = "drop"
+shape = "disk"
+radius = 1
+spacing = 0.25
+material = { type = "newtonian", density = 1, bulk_modulus = 50, viscosity = 1 }
+[[surface_tension]]
+body = "drop"
+gamma = 1
+[[contact]]
+bodies = ["drop"]
+contact_angle = 90
+partner = { type = "half_space", point = [0, -1.05], normal = [0, 1] }
+[expect]
+aspect = { of = "drop.aspect" }
+"""
+
+# The end of the beam is pushed down, and then let go.
+STAGES = BEAM.split("[expect]", maxsplit=1)[0].replace('time = { end = 1, step = 1, solver = "newton" }\n', "").replace(
+    "[[traction]]", '[[stage]]\nname = "push"\ntime = { end = 1, step = 1, solver = "newton" }\n[[stage.traction]]') + """
+[stage.expect]
+pushed = { of = "tip.displacement_y" }
+[[stage]]
+name = "swing"
+time = { end = 1 }
+[stage.expect]
+begins = { of = "tip.displacement_y", at = 0 }
 """
 
 
@@ -117,6 +153,42 @@ aspect = { of = "drop.aspect" }
         steps = sorted(path.name for path in (self.directory / "out" / "step").iterdir() if path.is_dir())
         self.assertEqual(steps, ["refine=1,safety=0.4", "refine=1,safety=0.6"])
 
+    def test_lengths_that_follow_the_cells(self):
+        """They change with the levels, or are held at what they are in the first one."""
+        self.scene(TOUCHING, "drop")
+        values = {}
+        for option in ("with", "fixed"):
+            rows, printed = self.table("drop.toml", "--output", "out", "--overwrite", "--range", option)
+            values[option] = [float(rows["aspect"][f"refine {k}"]) for k in (1, 2, 4)]
+            length = re.search(r"contact\[0\]\.range is (\S+) m at first", printed)[1]
+        set_by_hand, _ = self.table("drop.toml", "--output", "out", "--overwrite", "--set", f"contact[0].range={length}")
+        for k, value in zip((1, 2, 4), values["fixed"]):
+            self.assertAlmostEqual(float(set_by_hand["aspect"][f"refine {k}"]), value, delta=1e-5)
+        self.assertAlmostEqual(values["with"][0], values["fixed"][0], delta=1e-6)
+        self.assertGreater(abs(values["with"][1] - values["fixed"][1]), 1e-3)
+        # The levels begin at the refinement of the scene.
+        rows, _ = self.table("drop.toml", "--output", "out", "--overwrite", "--set", "resolution.refine=2")
+        self.assertEqual(float(rows["aspect"]["refine 2"]), values["with"][1])
+        self.assertIn("refine 8", rows["aspect"])
+
+    def test_stages(self):
+        self.scene(STAGES, "swing")
+        rows, _ = self.table("swing.toml", "--output", "out")
+        self.assertEqual(set(rows), {"pushed", "begins", "seconds"})
+        for level in ("refine 1", "refine 2", "refine 4"):
+            self.assertAlmostEqual(float(rows["begins"][level]) / float(rows["pushed"][level]), 1, delta=1e-6)
+        self.assertNotEqual(rows["pushed"]["refine 1"], rows["pushed"]["refine 2"])
+        for option in (["--budget"], ["--range", "fixed"]):
+            self.refused(["converge", "swing.toml", *option], 3, "without [[stage]]")
+
+    def test_spacing_instead_of_numbers_of_cells(self):
+        short = DROP.replace('end = "60 ps"', 'end = "3 ps"')
+        self.scene(short.replace("core = 3\nlayers = 2", "core = 4\nlayers = 2"), "counts")
+        self.scene(short.replace("core = 3\nlayers = 2", 'spacing = "14.3 angstrom"'), "spacing")
+        self.assertEqual(state_of(self.call("run", "counts.toml", "--output", "a")), state_of(self.call("run", "spacing.toml", "--output", "b")))
+        self.scene(short.replace("core = 3", 'spacing = "1 nm"'), "both")
+        self.refused(["check", "both.toml"], 3, "is given beside layers; allowed is either spacing or core, layers")
+
     def test_a_series_goes_on(self):
         self.scene(BEAM, "beam")
         first = self.table("beam.toml", "--output", "out", "--factor", "2")[1]
@@ -129,6 +201,7 @@ aspect = { of = "drop.aspect" }
         for arguments, code, words in (
                 (["--levels", "2"], 2, "allowed is an integer >= 3"),
                 (["--factor", "1.0001"], 2, "--factor"),
+                (["--range", "held"], 2, "not in {fixed,with}"),
                 (["--set", "body.beam.cells=[1,1],[2,2]"], 3, "has 2 values"),
                 (["--factor", "1.05"], 3, "no more cells than the level before")):
             with self.subTest(words):
@@ -139,7 +212,7 @@ aspect = { of = "drop.aspect" }
         self.refused(["converge", "nothing.toml"], 3, "nothing to report")
         self.scene(BEAM.replace("[[traction]]", "[[contact]]\nbodies = [\"beam\"]\nadhesion = 1e-9\noffset = 0.1\n"
                                 "partner = { type = \"half_space\", point = [0, -3], normal = [0, 1] }\n[[traction]]"), "left")
-        self.assertIn("contact[0] has no range", self.call("converge", "left.toml", "--output", "out", "--factor", "2", code=None).stdout)
+        self.assertIn("contact[0].range is", self.call("converge", "left.toml", "--output", "out", "--factor", "2", code=None).stdout)
 
 
 if __name__ == "__main__":

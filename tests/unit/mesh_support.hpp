@@ -136,12 +136,17 @@ Geometry<D> geometry_of_file(const std::string& file, const std::string& more = 
   return geometry_of_lines<D>("shape = 'mesh'\nfile = '" + file + "'\n" + more);
 }
 
-/// A body imported from the cells of the grid, or from simplices.
+/// A body imported from the cells of the grid, or from simplices; `more` are lines of its table.
 template <int D>
-Geometry<D> imported(const Grid<D>& grid, bool simplices) {
+Geometry<D> imported(const Grid<D>& grid, bool simplices, const std::string& more = "") {
   const std::string name = fmt::format("imported_{}_{}.msh", D, simplices);
   return geometry_of_file<D>(
-      written(name, msh_of<D>(grid, simplices ? simplices_of(grid) : cells_of(grid))));
+      written(name, msh_of<D>(grid, simplices ? simplices_of(grid) : cells_of(grid))), more);
+}
+
+/// Lines behind those of a body: its edges are k times finer.
+inline std::string refined_by(int k) {
+  return fmt::format("[resolution]\nrefine = {}\n", k);
 }
 
 }  // namespace meniscus::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Order, limit and error bar of series with a known limit; finer cells of every shape.
 #include "meniscus/body/shapes.hpp"
+#include "meniscus/error.hpp"
 #include "numbers/convergence.hpp"
 #include "support.hpp"
 #include "thrown.hpp"
@@ -9,6 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace meniscus::test_convergence {
 namespace {
@@ -55,14 +59,18 @@ TEST(Convergence, IsCarefulWithoutAnOrder) {
   EXPECT_TRUE(std::isnan(wrong.error_bar));
 }
 
-/// Number of nodes of a shape whose scene has [resolution].
+/// The grid of a shape whose scene has [resolution].
 template <int D>
-Index nodes(const std::string& shape, const std::string& lines, Real k) {
+Grid<D> grid_of(const std::string& shape, const std::string& lines, Real k = 1) {
   const SceneInput input = SceneInput::from_text(
       fmt::format("resolution.refine = {}\n[[body]]\nshape = \"{}\"\n{}", k, shape, lines));
-  const auto geometry = read_geometry<D>(input.root().tables("body").front());
+  auto geometry = read_geometry<D>(input.root().tables("body").front());
   input.check();
-  return static_cast<Index>(geometry.grid.X.size());
+  return std::move(geometry.grid);
+}
+template <int D>
+Index nodes(const std::string& shape, const std::string& lines, Real k) {
+  return grid_of<D>(shape, lines, k).node_count();
 }
 
 template <int D>
@@ -88,6 +96,47 @@ TEST(Convergence, EveryShapeIsRefinedByOneNumber) {
             nodes<3>("half_sphere", "radius = 1\ncore = 6\nlayers = 2\n", 1));
   EXPECT_EQ(nodes<3>("box", "size = [1, 2, 3]\nspacing = 0.5\n", 2),
             nodes<3>("box", "size = [1, 2, 3]\ncells = [4, 8, 12]\n", 1));
+}
+
+/// The mean size of the cells over the key spacing.
+template <int D>
+Real size_of_cells(const std::string& shape, const std::string& lines, Real spacing) {
+  const Grid<D> grid = grid_of<D>(shape, fmt::format("{}\nspacing = {}\n", lines, spacing));
+  return std::pow(volume(grid) / static_cast<Real>(grid.cell_count()), 1.0 / D) / spacing;
+}
+
+/// Numbers of cells are whole, and some even, so that sizes of cells are near the spacing only.
+TEST(Convergence, SpacingIsTheSizeOfTheCellsOfRoundShapes) {
+  for (const Real spacing : {0.125, 0.09}) {
+    for (const auto& [shape, lines] : std::vector<std::pair<std::string, std::string>>{
+             {"disk", "radius = 1"},
+             {"ellipse", "semi_axes = [1, 1.5]"},
+             {"half_disk", "radius = 1"},
+             {"cap", "radius = 1\ncontact_angle = 40"},
+             {"red_cell", "diameter = 6"},
+             {"ring", "radius = 1.5\nthickness = 0.75"}})
+      EXPECT_NEAR(size_of_cells<2>(shape, lines, spacing), 1, 0.1) << shape << " " << spacing;
+    for (const auto& [shape, lines] :
+         std::vector<std::pair<std::string, std::string>>{{"ball", "radius = 1"},
+                                                          {"ellipsoid", "semi_axes = [1, 1, 1.5]"},
+                                                          {"half_sphere", "radius = 1"},
+                                                          {"octant", "radius = 1"},
+                                                          {"cap", "radius = 1\ncontact_angle = 40"},
+                                                          {"red_cell", "volume = 5"},
+                                                          {"cylinder", "radius = 1\nheight = 1"}})
+      EXPECT_NEAR(size_of_cells<3>(shape, lines, spacing), 1, 0.1) << shape << " " << spacing;
+  }
+  const std::string ball = "radius = 1\n";
+  EXPECT_EQ(nodes<3>("ball", ball + "spacing = 0.25\n", 1),
+            nodes<3>("ball", ball + "core = 4\nlayers = 2\n", 1));
+  EXPECT_EQ(nodes<3>("ball", ball + "spacing = 0.25\n", 2),
+            nodes<3>("ball", ball + "spacing = 0.125\n", 1));
+  EXPECT_EQ(nodes<3>("ball", ball + "spacing = 9\n", 1),
+            nodes<3>("ball", ball + "core = 2\nlayers = 1\n", 1));
+  EXPECT_THROW(nodes<3>("ball", ball + "spacing = 0.25\nlayers = 2\n", 1), InputError);
+  EXPECT_THROW(nodes<2>("ring", ball + "thickness = 0.5\nspacing = 0.1\naround = 20\n", 1),
+               InputError);
+  EXPECT_THROW(nodes<2>("disk", ball + "spacing = 1e-9\n", 1), InputError);
 }
 
 }  // namespace

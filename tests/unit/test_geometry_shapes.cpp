@@ -221,7 +221,7 @@ TEST(Shapes, AreRegisteredWithTheirKeys) {
   for (const char* name : {"disk", "ellipse", "rectangle"})
     EXPECT_NE(shapes<2>().find(name), nullptr) << name;
   const auto keys = shapes<3>().at("ball").keys();
-  ASSERT_EQ(keys.size(), 4u);
+  ASSERT_EQ(keys.size(), 5u);
   EXPECT_EQ(keys[0].key, "radius");
   EXPECT_FALSE(keys[0].meaning.empty());
 }

@@ -84,6 +84,7 @@ void expect_nodal_cells() {
   for_both_kinds([](bool simplices) {
     expect_cells<D>(test::imported<D>(block<D>(3), simplices));
     expect_cells<D>(test::imported<D>(round_body<D>(4), simplices));
+    expect_cells<D>(test::imported<D>(round_body<D>(2), simplices, test::refined_by(2)));
   });
 }
 TEST(MeshBodies, NodalCellsTileTheBody) {
@@ -138,6 +139,8 @@ void expect_patch_tests() {
   for_both_kinds([](bool simplices) {
     expect_patch_test<D>(test::imported<D>(block<D>(4), simplices));
     expect_patch_test<D>(test::imported<D>(round_body<D>(4), simplices));
+    expect_patch_test<D>(test::imported<D>(block<D>(2), simplices, test::refined_by(2)));
+    expect_patch_test<D>(test::imported<D>(round_body<D>(2), simplices, test::refined_by(2)));
   });
 }
 TEST(MeshBodies, PassThePatchTest) {

@@ -154,8 +154,9 @@ TEST(MeshRegions, BarsOfSimplicesSideBySideAreOfSecondOrder) {
 
 /// The order of the nodes and of the cells changes when a body is made.
 template <int D>
-void expect_shares(bool simplices) {
-  Geometry<D> geometry = test::geometry_of_file<D>(file_of(bar<D>(3, 2), simplices, 0));
+void expect_shares(bool simplices, int refine) {
+  Geometry<D> geometry =
+      test::geometry_of_file<D>(file_of(bar<D>(3, 2), simplices, 0), test::refined_by(refine));
   order_spatially(geometry);
   const Grid<D>& grid = geometry.grid;
   const MeshRegions* regions = mesh_regions(geometry);
@@ -179,10 +180,11 @@ void expect_shares(bool simplices) {
   EXPECT_NEAR(volumes[0], volumes[1], 1e-13);
 }
 TEST(MeshRegions, NodalCellsHaveTheSharesOfTheirVolumes) {
-  for (const bool simplices : {false, true}) {
-    expect_shares<2>(simplices);
-    expect_shares<3>(simplices);
-  }
+  for (const bool simplices : {false, true})
+    for (const int refine : {1, 2}) {
+      expect_shares<2>(simplices, refine);
+      expect_shares<3>(simplices, refine);
+    }
 }
 
 TEST(MeshRegions, TheMassIsThatOfTheRegions) {

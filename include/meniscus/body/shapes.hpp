@@ -212,8 +212,9 @@ bool register_shape() {
                                         const Real k = block.refinement();
                                         if (k != 1 && !refine(shape, k))
                                           block.problem("shape",
-                                                        "has its own cells, which [resolution] "
-                                                        "does not refine; allowed is refine = 1");
+                                                        "has the cells of a file, whose edges can "
+                                                        "only be halved; allowed for [resolution] "
+                                                        "refine is a power of 2: 1, 2, 4, ...");
                                         if (!block.in_order()) return std::nullopt;
                                         return shape.geometry();
                                       }});

@@ -97,6 +97,12 @@ class Assembly {
   void note(std::string sentence) { scene_.notes.push_back(std::move(sentence)); }
   void warn(std::string sentence) { scene_.warnings.push_back(std::move(sentence)); }
 
+  /// Registers a length of physics that follows the size of the cells, by the key that would set
+  /// it.
+  void length_by_cells(std::string key, Real value) {
+    scene_.lengths_by_cells.emplace_back(std::move(key), value);
+  }
+
   const UnitSystem& units() const { return scene_.units; }
   Real end_time() const { return scene_.time.end; }
   /// True if bodies have inertia, false if the solver looks for equilibria.

@@ -3,7 +3,7 @@
 #include "body/grid/simplex.hpp"
 #include "body/mesh/mesh_checks.hpp"
 #include "body/mesh/mesh_file.hpp"
-#include "body/mesh/mesh_surface.hpp"
+#include "body/mesh/mesh_subdivision.hpp"
 #include "body/shapes/cell_count.hpp"
 #include "input/sha256.hpp"
 #include "kernel/neighbor_search.hpp"
@@ -15,6 +15,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -37,6 +38,7 @@ struct Mesh {
   std::string text;  ///< content of the file
   std::optional<Real> unit;
   std::string facets;
+  int halvings = 0;  ///< how often the edges of its cells are halved
 
   static Rows<Mesh> rows();
   Geometry<D> geometry() const;
@@ -131,11 +133,11 @@ MeshShape only_shape(const MeshData& data) {
 template <int D>
 class MeshMaker {
  public:
-  MeshMaker(const MeshData& data, Real unit) : data_(data) {
+  MeshMaker(const MeshData& data, Real unit, int halvings) : data_(data), halvings_(halvings) {
     const MeshShape shape = only_shape<D>(data);
     const auto cells = std::count_if(data.cells.begin(), data.cells.end(),
                                      [&](const MeshCell& c) { return c.shape == shape; });
-    require_affordable<D>(Real(cells), Real(cells) / Real(data.X.size()));
+    require_affordable<D>(std::ldexp(Real(cells), D * halvings), Real(cells) / Real(data.X.size()));
     if constexpr (D == 2) require_flat();
     number_.assign(data.X.size(), -1);
     for (const MeshCell& cell : data.cells)
@@ -151,7 +153,13 @@ class MeshMaker {
   }
 
   Geometry<D> geometry(MeshFacets facets) && {
-    return mesh_geometry(std::move(grid_), given_, facets);
+    Geometry<D> geometry = mesh_geometry(std::move(grid_), given_, facets);
+    for (int k = 0; k < halvings_; ++k) {
+      MeshParts<D> fine = halved(geometry, given_);
+      given_ = std::move(fine.given);
+      geometry = mesh_geometry(std::move(fine.grid), given_, facets);
+    }
+    return geometry;
   }
 
  private:
@@ -248,6 +256,7 @@ class MeshMaker {
   }
 
   const MeshData& data_;
+  int halvings_;
   Grid<D> grid_;
   std::vector<Index> number_;              ///< [node of the file] number in the grid
   std::vector<const MeshCell*> cell_of_;   ///< [cell] cell of the file
@@ -260,7 +269,7 @@ template <int D>
 Geometry<D> Mesh<D>::geometry() const {
   const MeshData data = read_mesh(text, file);
   try {
-    return MeshMaker<D>(data, unit.value_or(1))
+    return MeshMaker<D>(data, unit.value_or(1), halvings)
         .geometry(facets == "flat" ? MeshFacets::flat : MeshFacets::curved);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file, error.what()));

@@ -2,7 +2,10 @@
 // Ball and ellipsoid.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
+#include "body/shapes/spacing.hpp"
 #include "meniscus/body/shapes.hpp"
+
+#include <cmath>
 
 namespace meniscus {
 
@@ -20,12 +23,13 @@ const bool ball_registered = register_shape<3, Ball>() && register_shape<3, Elli
 }  // namespace
 
 Rows<Ball> Ball::rows() {
-  return {
-      real_row("radius", &Ball::radius, dimension::length, range::positive, "radius"),
-      integer_row("core", &Ball::core, count_in_space, "cells along an edge of the core cube", 10),
-      integer_row("layers", &Ball::layers, count_in_space, "shells of cells around the core", 5),
-      reals_row("centre", &Ball::centre, 3, dimension::length, range::any, "centre",
-                std::vector<Real>{0, 0, 0})};
+  return with_round_spacing<Ball>(
+      {real_row("radius", &Ball::radius, dimension::length, range::positive, "radius"),
+       integer_row("core", &Ball::core, count_in_space, "cells along an edge of the core cube", 10),
+       integer_row("layers", &Ball::layers, count_in_space, "shells of cells around the core", 5),
+       reals_row("centre", &Ball::centre, 3, dimension::length, range::any, "centre",
+                 std::vector<Real>{0, 0, 0})},
+      &Ball::core, &Ball::layers, "layers", [](const Ball& ball) { return ball.radius; });
 }
 
 Geometry<3> Ball::geometry() const {
@@ -33,14 +37,18 @@ Geometry<3> Ball::geometry() const {
 }
 
 Rows<Ellipsoid> Ellipsoid::rows() {
-  return {reals_row("semi_axes", &Ellipsoid::semi_axes, 3, dimension::length, range::positive,
-                    "semi-axes along x, y, z"),
-          integer_row("core", &Ellipsoid::core, count_in_space,
-                      "cells along an edge of the core cube", 10),
-          integer_row("layers", &Ellipsoid::layers, count_in_space,
-                      "shells of cells around the core", 5),
-          reals_row("centre", &Ellipsoid::centre, 3, dimension::length, range::any, "centre",
-                    std::vector<Real>{0, 0, 0})};
+  return with_round_spacing<Ellipsoid>(
+      {reals_row("semi_axes", &Ellipsoid::semi_axes, 3, dimension::length, range::positive,
+                 "semi-axes along x, y, z"),
+       integer_row("core", &Ellipsoid::core, count_in_space, "cells along an edge of the core cube",
+                   10),
+       integer_row("layers", &Ellipsoid::layers, count_in_space, "shells of cells around the core",
+                   5),
+       reals_row("centre", &Ellipsoid::centre, 3, dimension::length, range::any, "centre",
+                 std::vector<Real>{0, 0, 0})},
+      &Ellipsoid::core, &Ellipsoid::layers, "layers", [](const Ellipsoid& e) {
+        return std::cbrt(at(e.semi_axes, 0) * at(e.semi_axes, 1) * at(e.semi_axes, 2));
+      });
 }
 
 Geometry<3> Ellipsoid::geometry() const {

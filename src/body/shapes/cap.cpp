@@ -3,6 +3,7 @@
 // the ball to the sphere of the cap.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
+#include "body/shapes/spacing.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 
@@ -79,22 +80,24 @@ struct Cap {
       read(cap, block);
       cap.in_space = D == 3 || block.units().of_whole_bodies();
     };
-    return {radius,
-            real_row("contact_angle", &Cap::contact_angle, dimension::none, {5, 155},
-                     "angle in degrees between the flat and the round face, inside"),
-            real_row("wall_radius", &Cap::wall_radius, dimension::length, range::any,
-                     "radius of a ball (2D: disk) on which the cap is laid; negative: of a cavity "
-                     "in which it lies; 0: a plane",
-                     0),
-            integer_row("core", &Cap::core, D == 3 ? count_in_space : count_in_plane,
-                        "cells along an edge of the core of the whole ball, an even number",
-                        D == 3 ? 10 : 18),
-            integer_row(
-                D == 3 ? "layers" : "rings", &Cap::layers, D == 3 ? count_in_space : count_in_plane,
-                D == 3 ? "shells of cells around the core" : "rings of cells around the core",
-                D == 3 ? 5 : 9),
-            reals_row("centre", &Cap::centre, D, dimension::length, range::any,
-                      "centre of the flat face", std::vector<Real>(D, 0.0))};
+    return with_round_spacing<Cap>(
+        {radius,
+         real_row("contact_angle", &Cap::contact_angle, dimension::none, {5, 155},
+                  "angle in degrees between the flat and the round face, inside"),
+         real_row("wall_radius", &Cap::wall_radius, dimension::length, range::any,
+                  "radius of a ball (2D: disk) on which the cap is laid; negative: of a cavity "
+                  "in which it lies; 0: a plane",
+                  0),
+         integer_row("core", &Cap::core, D == 3 ? count_in_space : count_in_plane,
+                     "cells along an edge of the core of the whole ball, an even number",
+                     D == 3 ? 10 : 18),
+         integer_row(D == 3 ? "layers" : "rings", &Cap::layers,
+                     D == 3 ? count_in_space : count_in_plane,
+                     D == 3 ? "shells of cells around the core" : "rings of cells around the core",
+                     D == 3 ? 5 : 9),
+         reals_row("centre", &Cap::centre, D, dimension::length, range::any,
+                   "centre of the flat face", std::vector<Real>(D, 0.0))},
+        &Cap::core, &Cap::layers, D == 3 ? "layers" : "rings", &Cap::radius_of_cells);
   }
   Geometry<D> geometry() const {
     if (core % 2 != 0)
@@ -106,6 +109,16 @@ struct Cap {
         {SurfacePatch<D>::sphere(origin, 1).named("round"),
          SurfacePatch<D>::plane(origin, -up).named("flat")},
         false, cap_map<D>(theta, radius * radius_of_sphere(theta, in_space), wall_radius, centre));
+  }
+
+ private:
+  /// Radius of the ball (2D: disk) with twice the volume (area) of the cap, which has half of the
+  /// cells of the ball.
+  static Real radius_of_cells(const Cap& cap) {
+    if (D == 3) return std::cbrt(2.0) * cap.radius;
+    const Real theta = cap.contact_angle * std::numbers::pi / 180;
+    return std::sqrt(2.0) * cap.radius * radius_of_sphere(theta, cap.in_space) /
+           radius_of_sphere(theta, false);
   }
 };
 

@@ -2,6 +2,7 @@
 // Cylinder: the disk repeated along z.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
+#include "body/shapes/spacing.hpp"
 #include "meniscus/body/shapes.hpp"
 
 namespace meniscus {
@@ -30,15 +31,24 @@ const bool cylinder_registered = register_shape<3, Cylinder>();
 }  // namespace
 
 Rows<Cylinder> Cylinder::rows() {
-  return {
-      real_row("radius", &Cylinder::radius, dimension::length, range::positive, "radius"),
-      real_row("height", &Cylinder::height, dimension::length, range::positive, "extent along z"),
-      integer_row("core", &Cylinder::core, count_in_space, "cells along an edge of the core square",
-                  18),
-      integer_row("rings", &Cylinder::rings, count_in_space, "rings of cells around the core", 9),
-      integer_row("layers", &Cylinder::layers, count_in_space, "layers of cells along z", 3),
-      reals_row("centre", &Cylinder::centre, 3, dimension::length, range::any, "centre",
-                std::vector<Real>{0, 0, 0})};
+  return with_spacing<Cylinder>(
+      {real_row("radius", &Cylinder::radius, dimension::length, range::positive, "radius"),
+       real_row("height", &Cylinder::height, dimension::length, range::positive, "extent along z"),
+       integer_row("core", &Cylinder::core, count_in_space,
+                   "cells along an edge of the core square", 18),
+       integer_row("rings", &Cylinder::rings, count_in_space, "rings of cells around the core", 9),
+       integer_row("layers", &Cylinder::layers, count_in_space, "layers of cells along z", 3),
+       reals_row("centre", &Cylinder::centre, 3, dimension::length, range::any, "centre",
+                 std::vector<Real>{0, 0, 0})},
+      {"core", "rings", "layers"},
+      "mean size of a cell: core is radius / spacing, an even number, rings are half as many, and "
+      "layers are height / spacing",
+      [](Cylinder& cylinder, Real spacing) {
+        const RoundCells disk = round_cells(cylinder.radius, spacing);
+        cylinder.core = disk.core;
+        cylinder.rings = disk.shells;
+        cylinder.layers = cells_of_spacing(cylinder.height, spacing);
+      });
 }
 
 Geometry<3> Cylinder::geometry() const {

@@ -2,6 +2,7 @@
 // Half disk: the upper half of the disk, or the lower one.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
+#include "body/shapes/spacing.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 
@@ -19,15 +20,19 @@ struct HalfDisk {
   std::vector<Real> centre{0, 0};
 
   static Rows<HalfDisk> rows() {
-    return {
-        real_row("radius", &HalfDisk::radius, dimension::length, range::positive, "radius"),
-        integer_row("core", &HalfDisk::core, count_in_plane,
-                    "cells along an edge of the core square of the whole disk, an even number", 18),
-        integer_row("rings", &HalfDisk::rings, count_in_plane, "rings of cells around the core", 9),
-        grading_row(&HalfDisk::grading),
-        flag_row("below", &HalfDisk::below, "whether it is the half below its flat face", false),
-        reals_row("centre", &HalfDisk::centre, 2, dimension::length, range::any,
-                  "centre of the flat face", std::vector<Real>{0, 0})};
+    return with_round_spacing<HalfDisk>(
+        {real_row("radius", &HalfDisk::radius, dimension::length, range::positive, "radius"),
+         integer_row("core", &HalfDisk::core, count_in_plane,
+                     "cells along an edge of the core square of the whole disk, an even number",
+                     18),
+         integer_row("rings", &HalfDisk::rings, count_in_plane, "rings of cells around the core",
+                     9),
+         grading_row(&HalfDisk::grading),
+         flag_row("below", &HalfDisk::below, "whether it is the half below its flat face", false),
+         reals_row("centre", &HalfDisk::centre, 2, dimension::length, range::any,
+                   "centre of the flat face", std::vector<Real>{0, 0})},
+        &HalfDisk::core, &HalfDisk::rings, "rings",
+        [](const HalfDisk& half) { return half.radius; });
   }
   Geometry<2> geometry() const {
     if (core % 2 != 0)

@@ -2,6 +2,7 @@
 // Half sphere: the upper half of the cubed sphere, or the lower one.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
+#include "body/shapes/spacing.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 
@@ -14,15 +15,17 @@ const bool half_sphere_registered = register_shape<3, HalfSphere>();
 }  // namespace
 
 Rows<HalfSphere> HalfSphere::rows() {
-  return {
-      real_row("radius", &HalfSphere::radius, dimension::length, range::positive, "radius"),
-      integer_row("core", &HalfSphere::core, count_in_space,
-                  "cells along an edge of the core of the whole ball, an even number", 10),
-      integer_row("layers", &HalfSphere::layers, count_in_space, "shells of cells around the core",
-                  5),
-      reals_row("centre", &HalfSphere::centre, 3, dimension::length, range::any,
-                "centre of the flat face", std::vector<Real>{0, 0, 0}),
-      flag_row("below", &HalfSphere::below, "whether it is the half below its flat face", false)};
+  return with_round_spacing<HalfSphere>(
+      {real_row("radius", &HalfSphere::radius, dimension::length, range::positive, "radius"),
+       integer_row("core", &HalfSphere::core, count_in_space,
+                   "cells along an edge of the core of the whole ball, an even number", 10),
+       integer_row("layers", &HalfSphere::layers, count_in_space, "shells of cells around the core",
+                   5),
+       reals_row("centre", &HalfSphere::centre, 3, dimension::length, range::any,
+                 "centre of the flat face", std::vector<Real>{0, 0, 0}),
+       flag_row("below", &HalfSphere::below, "whether it is the half below its flat face", false)},
+      &HalfSphere::core, &HalfSphere::layers, "layers",
+      [](const HalfSphere& half) { return half.radius; });
 }
 
 Geometry<3> HalfSphere::geometry() const {

@@ -3,6 +3,7 @@
 // symmetry.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
+#include "body/shapes/spacing.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 
@@ -19,14 +20,17 @@ struct Octant {
   std::vector<Real> corner{0, 0, 0};
 
   static Rows<Octant> rows() {
-    return {real_row("radius", &Octant::radius, dimension::length, range::positive, "radius"),
-            integer_row("core", &Octant::core, count_in_space,
-                        "cells along an edge of the core of the whole ball, an even number", 10),
-            integer_row("layers", &Octant::layers, count_in_space,
-                        "shells of cells around the core", 5),
-            grading_row(&Octant::grading),
-            reals_row("corner", &Octant::corner, 3, dimension::length, range::any,
-                      "centre of the whole ball", std::vector<Real>{0, 0, 0})};
+    return with_round_spacing<Octant>(
+        {real_row("radius", &Octant::radius, dimension::length, range::positive, "radius"),
+         integer_row("core", &Octant::core, count_in_space,
+                     "cells along an edge of the core of the whole ball, an even number", 10),
+         integer_row("layers", &Octant::layers, count_in_space, "shells of cells around the core",
+                     5),
+         grading_row(&Octant::grading),
+         reals_row("corner", &Octant::corner, 3, dimension::length, range::any,
+                   "centre of the whole ball", std::vector<Real>{0, 0, 0})},
+        &Octant::core, &Octant::layers, "layers",
+        [](const Octant& octant) { return octant.radius; });
   }
   Geometry<3> geometry() const {
     if (core % 2 != 0)

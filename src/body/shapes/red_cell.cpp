@@ -4,6 +4,7 @@
 // unit ball to it.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
+#include "body/shapes/spacing.hpp"
 #include "input/optional_rows.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
@@ -50,21 +51,23 @@ struct RedCell {
   std::vector<Real> centre = std::vector<Real>(D, 0.0);
 
   static Rows<RedCell> rows() {
-    return {
-        optional_row("diameter", &RedCell::diameter, dimension::length, range::positive, "none",
-                     "diameter; either this, or area, or volume"),
-        optional_row("area", &RedCell::area, dimension::area, range::positive, "none",
-                     "area of the surface of the cell"),
-        optional_row("volume", &RedCell::volume, dimension::volume, range::positive, "none",
-                     "volume of the cell"),
-        integer_row("core", &RedCell::core, D == 3 ? count_in_space : count_in_plane,
-                    "cells along an edge of the core of the ball that is mapped", D == 3 ? 10 : 18),
-        integer_row(D == 3 ? "layers" : "rings", &RedCell::layers,
-                    D == 3 ? count_in_space : count_in_plane,
-                    D == 3 ? "shells of cells around the core" : "rings of cells around the core",
-                    D == 3 ? 5 : 9),
-        reals_row("centre", &RedCell::centre, D, dimension::length, range::any, "centre",
-                  std::vector<Real>(D, 0.0))};
+    return with_round_spacing<RedCell>(
+        {optional_row("diameter", &RedCell::diameter, dimension::length, range::positive, "none",
+                      "diameter; either this, or area, or volume"),
+         optional_row("area", &RedCell::area, dimension::area, range::positive, "none",
+                      "area of the surface of the cell"),
+         optional_row("volume", &RedCell::volume, dimension::volume, range::positive, "none",
+                      "volume of the cell"),
+         integer_row("core", &RedCell::core, D == 3 ? count_in_space : count_in_plane,
+                     "cells along an edge of the core of the ball that is mapped",
+                     D == 3 ? 10 : 18),
+         integer_row(D == 3 ? "layers" : "rings", &RedCell::layers,
+                     D == 3 ? count_in_space : count_in_plane,
+                     D == 3 ? "shells of cells around the core" : "rings of cells around the core",
+                     D == 3 ? 5 : 9),
+         reals_row("centre", &RedCell::centre, D, dimension::length, range::any, "centre",
+                   std::vector<Real>(D, 0.0))},
+        &RedCell::core, &RedCell::layers, D == 3 ? "layers" : "rings", &RedCell::radius_of_cells);
   }
   Geometry<D> geometry() const {
     const Real R = radius();
@@ -84,6 +87,11 @@ struct RedCell {
   }
 
  private:
+  /// Radius of the ball (2D: disk) with the volume of the cell (2D: the area of its section).
+  static Real radius_of_cells(const RedCell& cell) {
+    return cell.radius() * (D == 3 ? std::cbrt(0.75 / std::numbers::pi * volume_of_red_cell())
+                                   : std::sqrt(c0 + c1 / 4 + c2 / 8));
+  }
   Real radius() const {
     if (diameter.has_value() + area.has_value() + volume.has_value() != 1)
       throw InputError("a red_cell has one size; expected is one of diameter, area, volume");

@@ -19,20 +19,14 @@ inline int refined(int cells, Real k, bool is_around = false) {
 }
 
 /// Makes the cells of a shape k times as fine, by its members core, rings, layers, around, cells
-/// and spacing. The layers of a Wall are its particles. False if the shape has none of them.
+/// and spacing. The layers of a Wall are its particles. A mesh has `halvings`: how often its edges
+/// are halved. Returns false if k is not a power of two, 1 or more, and the shape is a mesh.
 template <class S>
 bool refine(S& shape, Real k) {
-  bool known = false;
-  const auto take = [&](int& cells) {
-    cells = refined(cells, k);
-    known = true;
-  };
+  const auto take = [&](int& cells) { cells = refined(cells, k); };
   if constexpr (requires { shape.core; }) take(shape.core);
   if constexpr (requires { shape.rings; }) take(shape.rings);
-  if constexpr (requires { shape.around; }) {
-    shape.around = refined(shape.around, k, true);
-    known = true;
-  }
+  if constexpr (requires { shape.around; }) shape.around = refined(shape.around, k, true);
   if constexpr (requires { shape.layers; }) {
     if constexpr (std::is_base_of_v<Wall, S>)
       shape.layers = std::max(3, static_cast<int>(std::lround(k * (shape.layers - 1))) + 1);
@@ -41,11 +35,12 @@ bool refine(S& shape, Real k) {
   }
   if constexpr (requires { shape.cells; })
     for (Real& cells : shape.cells) cells = refined(static_cast<int>(cells), k);
-  if constexpr (requires { shape.spacing; }) {
-    shape.spacing /= k;
-    known = true;
+  if constexpr (requires { shape.spacing; }) shape.spacing /= k;
+  if constexpr (requires { shape.halvings; }) {
+    shape.halvings = k < 1 ? 0 : std::ilogb(k);
+    return std::ldexp(1, shape.halvings) == k;
   }
-  return known;
+  return true;
 }
 
 }  // namespace meniscus

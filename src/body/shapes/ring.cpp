@@ -2,10 +2,13 @@
 // Ring: the cross section of a thick-walled cylinder.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
+#include "body/shapes/spacing.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 
 #include <fmt/core.h>
+
+#include <numbers>
 
 namespace meniscus {
 namespace {
@@ -15,13 +18,22 @@ const bool ring_registered = register_shape<2, Ring>();
 }  // namespace
 
 Rows<Ring> Ring::rows() {
-  return {real_row("radius", &Ring::radius, dimension::length, range::positive, "outer radius"),
-          real_row("thickness", &Ring::thickness, dimension::length, range::positive,
-                   "of the wall, less than the radius"),
-          integer_row("around", &Ring::around, {6, 1e6}, "cells around", 48),
-          integer_row("layers", &Ring::layers, {2, 1e6}, "cells through the wall", 6),
-          reals_row("centre", &Ring::centre, 2, dimension::length, range::any, "centre",
-                    std::vector<Real>{0, 0})};
+  return with_spacing<Ring>(
+      {real_row("radius", &Ring::radius, dimension::length, range::positive, "outer radius"),
+       real_row("thickness", &Ring::thickness, dimension::length, range::positive,
+                "of the wall, less than the radius"),
+       integer_row("around", &Ring::around, {6, 1e6}, "cells around", 48),
+       integer_row("layers", &Ring::layers, {2, 1e6}, "cells through the wall", 6),
+       reals_row("centre", &Ring::centre, 2, dimension::length, range::any, "centre",
+                 std::vector<Real>{0, 0})},
+      {"around", "layers"},
+      "mean size of a cell: around is the length of the middle circle / spacing, a multiple of 4, "
+      "and layers are thickness / spacing, at least 2",
+      [](Ring& ring, Real spacing) {
+        ring.around = cells_of_spacing(2 * std::numbers::pi * (ring.radius - ring.thickness / 2),
+                                       spacing, 4, 8);
+        ring.layers = cells_of_spacing(ring.thickness, spacing, 1, 2);
+      });
 }
 
 Geometry<2> Ring::geometry() const {

@@ -50,6 +50,9 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
       note += fmt::format(", contact angle of '{}': {}", body,
                           contact_angle_text(flat.adhesion, *gamma));
   assembly.note(note);
+  const std::string key = this->place.substr(this->place.rfind(' ') + 1);
+  for (auto& [length, value] : law(assembly).lengths_by_facets())
+    assembly.length_by_cells(key + "." + length, value);
   assembly.note(
       fmt::format("contact '{}': {:.1f} MB", name, 1e-6 * static_cast<Real>(term.bytes())));
   report_points(assembly);

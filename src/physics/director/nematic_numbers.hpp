@@ -21,6 +21,7 @@ struct NematicNumbers {
 template <int D>
 struct NematicBody {
   NematicNumbers numbers;
+  bool core_by_cells = false;    ///< the core length follows the size of the cells
   CellRule<D> rule;              ///< integration rule of the body
   std::vector<Real> volume;      ///< [particle] volume for the director
   std::vector<Vec<D>> director;  ///< [particle] initial director

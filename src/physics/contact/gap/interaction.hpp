@@ -6,6 +6,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace meniscus {
 
@@ -62,6 +64,8 @@ class Interaction {
   /// The lengths that it chose, and formulas, as text for the log; empty if flat() is a complete
   /// description.
   virtual std::string described(const UnitSystem&) const { return {}; }
+  /// The keys that the scene leaves to the size of the facets, and their values.
+  virtual std::vector<std::pair<std::string, Real>> lengths_by_facets() const { return {}; }
   /// A warning if the interaction may be wrong on facets of size `facet`.
   virtual std::optional<std::string> doubt([[maybe_unused]] Real facet) const {
     return std::nullopt;

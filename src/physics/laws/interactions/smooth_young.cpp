@@ -34,6 +34,7 @@ struct SmoothYoung final : Interaction {
   Real W = 0, ell = 0, g0 = 0;                     // adhesion, range, gap of the film
   Real below = 0;                                  // recess of the surface from which gaps count
   Real core = 0;                                   // C k
+  std::optional<Real> offset_by_facet;             // the offset, if it follows the facets
   Real W_below = 0;                                // W below the centre of the body, at the start
   std::shared_ptr<const AdhesionPattern> varying;  // if W varies; the member W is then 1
 
@@ -110,6 +111,8 @@ struct SmoothYoung final : Interaction {
                        ": line_tension is for drops with a surface tension on rigid partners in "
                        "3D; allowed is to leave it out");
     const Real usual = surfaces.facet / 4;
+    const bool by_angle = surfaces.rigid && !film && gamma > 0;
+    if (!film && !by_angle) offset_by_facet = usual;
     if (!surfaces.rigid) {
       g0 = film.value_or(usual);
       if (!(g0 > 0))
@@ -117,7 +120,6 @@ struct SmoothYoung final : Interaction {
                                      surfaces.place, g0));
       return;
     }
-    const bool by_angle = !film && gamma > 0;
     g0 = ell / 2;
     const Real offset = by_angle
                             ? bent_line(*this, W, gamma, surfaces.volume, surfaces.dimension).depth
@@ -152,6 +154,12 @@ struct SmoothYoung final : Interaction {
         depth ? "" : " (half a facet: name `range` to keep it in finer bodies)", g0 - below, unit);
     if (varying) text += "; W varies and is that below the centre of the body at t = 0";
     return text;
+  }
+  std::vector<std::pair<std::string, Real>> lengths_by_facets() const override {
+    std::vector<std::pair<std::string, Real>> lengths;
+    if (!depth) lengths.emplace_back("range", ell);
+    if (offset_by_facet) lengths.emplace_back("offset", *offset_by_facet);
+    return lengths;
   }
   std::optional<std::string> doubt(Real facet) const override {
     if (ell >= facet / 3) return std::nullopt;

@@ -59,7 +59,8 @@ class Nematic final : public Material<D> {
                                                   const Integration& integration) const override {
     auto nematic = std::make_unique<NematicBody<D>>();
     nematic->numbers = numbers_;
-    if (!(numbers_.core_length > 0)) nematic->numbers.core_length = 2 * first_spacing(body);
+    nematic->core_by_cells = !(numbers_.core_length > 0);
+    if (nematic->core_by_cells) nematic->numbers.core_length = 2 * first_spacing(body);
     nematic->rule = build_cell_rule(body).rule;
     nematic->volume = volumes(body);
     for (Index A = 0; A < body.size(); ++A) nematic->director.push_back(director(body.origin(A)));
