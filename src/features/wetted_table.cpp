@@ -130,8 +130,8 @@ struct Wetted final : Load<D> {
           this->place, *tension / gamma, body));
     const WettedFace<D>& wetted = *std::find_if(
         on.wetted.begin(), on.wetted.end(), [&](const auto& known) { return known.face == face; });
-    auto hold = std::make_unique<WallHold<D>>(
-        on, wetted, stiffness_of_hold(on, wetted.wall, gamma, assembly.of(body).bulk_modulus));
+    auto hold =
+        std::make_unique<WallHold<D>>(on, wetted, stiffness_of_hold(on, wetted.wall, gamma));
     const WettingDrop<D> drop{
         gamma, assembly.weight(body), assembly.of(body).other_body_forces,
         assembly.measure_named(body + ".inner_pressure"),
@@ -208,14 +208,14 @@ struct Wetted final : Load<D> {
     const std::optional<Motion> start = initial ? std::optional(initial->motion()) : std::nullopt;
     assembly.add(line_pinning(on, wetted, hold, start ? &*start : nullptr), label());
   }
-  /// Stiff beside the pressure of the drop over its size. A plane wall is as stiff as the fluid
-  /// behind it: what gives way to the pressure of a flow would let fluid through. On a curved wall
+  /// Stiff beside the pressure of the drop over its size. A plane wall is stiff also beside the
+  /// pressure of the shortest capillary waves, which would press fluid through it. On a curved wall
   /// so many points cannot all stay, and a stiff hold would take a part of the pressure at rest.
-  static Real stiffness_of_hold(const Body<D>& on, const WettedWall<D>& wall, Real gamma,
-                                Real bulk_modulus) {
-    constexpr Real relative = 100;
-    const Real R = ball_radius(on.volume(), on.space()), soft = relative * gamma / (R * R);
-    return wall.is_plane() ? std::max(soft, bulk_modulus / mean_spacing(on.geometry.grid)) : soft;
+  static Real stiffness_of_hold(const Body<D>& on, const WettedWall<D>& wall, Real gamma) {
+    constexpr Real of_size = 100, of_spacing = 20;
+    const Real R = ball_radius(on.volume(), on.space()), h = mean_spacing(on.geometry.grid);
+    const Real soft = of_size * gamma / (R * R);
+    return wall.is_plane() ? std::max(soft, of_spacing * gamma / (h * h)) : soft;
   }
 };
 

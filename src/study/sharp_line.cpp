@@ -79,8 +79,10 @@ Case on_plane(Real angle, Real bond, int level) {
   const std::string weight = fmt::format(
       "[[body_force]]\nbody = \"drop\"\nacceleration = [0, {}{}]\n", D == 3 ? "0, " : "", -bond);
   return {fmt::format("{}D plane, {:g} degrees, Bond {:g}", D, angle, bond), D,
-          heading(D, angle < 45 ? 60 : 20) + cap(D, core, start, 0) + fluid() +
-              wetted("flat", angle) + (bond != 0 ? weight : ""),
+          heading(D, angle < 45    ? 60
+                     : angle > 140 ? 120
+                                   : 20) +
+              cap(D, core, start, 0) + fluid() + wetted("flat", angle) + (bond != 0 ? weight : ""),
           [angle, bond, mass = volume](const Values& v) -> Measurement::Numbers {
             const Real theta = angle * std::numbers::pi / 180, V = v.at("wall.volume");
             const Real weight_of_all = bond * mass;

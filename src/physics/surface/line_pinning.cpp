@@ -44,10 +44,10 @@ class LinePinning final : public ForceTerm, public ContinuedTerm {
       if (line.nu.dot(line.x - at(behind_, part)) < 0) at(outward_, part) = -1;
     }
     anchor_.assign(static_cast<std::size_t>(rows_.size()) * D, 0.0);
-    if (!start) return;
+    const NodalVector* u = start ? start->u.data() + body.first : rest.data();
+    const Real time = start ? start->time : 0;
     for (Index r = 0; r < rows_.size(); ++r)
-      keep(r, line_at(r, start->u.data() + body_.first, face_.wall_at(start->time)).x -
-                  face_.displacement_at(start->time));
+      keep(r, line_at(r, u, face_.wall_at(time)).x - face_.displacement_at(time));
   }
 
   std::string name() const override {

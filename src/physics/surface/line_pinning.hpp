@@ -16,7 +16,7 @@ struct LineHold {
 };
 
 /// The force of the bonds on the line of the face (sharp line note 1). The bonds begin without a
-/// force at the motion `start`; if it is null, archive() restores them.
+/// force at the motion `start`, or in the reference if it is null.
 template <int D>
 std::unique_ptr<ForceTerm> line_pinning(const Body<D>& body, const WettedFace<D>& face,
                                         const LineHold& hold, const Motion* start);

@@ -27,11 +27,11 @@ struct Guccione {
             parameter_row<L>("stiffness", &L::stiffness, dimension::pressure, range::positive, "C",
                              0.5),
             parameter_row<L>("along", &L::along, dimension::none, range::positive,
-                             "bf, of the stretch of fibres", 3),
+                             "bf, of the stretch of fibres", 1.5),
             parameter_row<L>("across", &L::across, dimension::none, range::positive,
-                             "bt, of strains across them", 1),
+                             "bt, of strains across them", 0.5),
             parameter_row<L>("shear", &L::shear, dimension::none, range::positive,
-                             "bfs, of shear along them; the shear modulus is C bfs/2", 1.5),
+                             "bfs, of shear along them; the shear modulus is C bfs/2", 0.75),
             parameter_row<L>("bulk_modulus", &L::bulk_modulus, dimension::pressure, range::positive,
                              "K", 1.5)};
   }

@@ -26,9 +26,9 @@ struct Yeoh {
             parameter_row<L>("c1", &L::c1, dimension::pressure, range::positive,
                              "half of the shear modulus", 0.375),
             parameter_row<L>("c2", &L::c2, dimension::pressure, range::any, "factor of (I - 3)^2",
-                             0.05, 0.0),
-            parameter_row<L>("c3", &L::c3, dimension::pressure, range::any, "factor of (I - 3)^3",
                              0.02, 0.0),
+            parameter_row<L>("c3", &L::c3, dimension::pressure, range::any, "factor of (I - 3)^3",
+                             0.005, 0.0),
             parameter_row<L>("bulk_modulus", &L::bulk_modulus, dimension::pressure, range::positive,
                              "K", 1.5)};
   }
