@@ -22,7 +22,7 @@ class Besides {
 
   /// Begins the files, on rank 0.
   void open(const RunDirectory& directory);
-  /// Moves each scene to its equilibrium near that of the run, and writes a row. Throws like
+  /// Moves each scene to its equilibrium near the one of the run, and writes a row. Throws like
   /// Simulation::follow().
   void record(Simulation<D>& run);
 

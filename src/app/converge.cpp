@@ -32,7 +32,7 @@ bool has_mesh(const Block& root) {
                      [](const Block& body) { return body.text("shape", "") == "mesh"; });
 }
 
-/// Values of resolution.refine: that of the scene times powers of the factor.
+/// Values of resolution.refine: the value of the scene times powers of the factor.
 std::vector<std::string> refinements_of(const ConvergeRequest& request) {
   const SceneInput input = SceneInput::from_file(request.scene, request.set);
   Real factor = request.factor;
@@ -56,8 +56,8 @@ std::vector<SceneInput> scenes_of(const ConvergeRequest& request, const std::str
   return all;
 }
 
-/// A scene at a level: the mean size of its cells relative to its own, and the expectations. One
-/// that several stages have is that of the last of them.
+/// A scene at a level: the mean size of its cells relative to its own, and the expectations. If
+/// several stages have an expectation of one name, the last stage counts.
 struct Level {
   Real h = 0;
   Expectations expected;
@@ -95,7 +95,7 @@ std::vector<std::pair<std::string, Real>> lengths_by_cells(const SceneInput& inp
 }
 
 /// Names the lengths of physics that follow the cells because the scene leaves them to the program.
-/// With --range fixed, the result sets them to what they are in the first level.
+/// With --range fixed, the result sets them to their values in the first level.
 ConvergeRequest with_lengths(ConvergeRequest request) {
   const auto scenes = scenes_of(request, refinements_of(request).front());
   const bool stages = !SceneInput::from_file(request.scene, request.set).stages().empty();

@@ -80,7 +80,7 @@ class Halving {
   }
 
   /// Cuts the octahedron between the middles 01, 23, 02, 03, 13, 12 of the edges of a tetrahedron
-  /// along its shortest diagonal, the first of those that are equal but for rounding.
+  /// along its shortest diagonal. Of diagonals that are equal but for rounding, the first counts.
   void divide_octahedron(const std::array<Index, 6>& middles) requires(D == 3) {
     // Both ends of each diagonal, then the other corners around it, right-handed.
     constexpr int corners[3][6] = {{0, 1, 2, 3, 4, 5}, {2, 4, 3, 0, 5, 1}, {3, 5, 0, 2, 1, 4}};
@@ -140,7 +140,7 @@ class Halving {
     if (!face.empty()) fine_.given.face[nodes] = face;
   }
   /// Notes the point of the surface between nodes of a new facet. A surface that is recovered from
-  /// the nodes is recovered again from those of the finer mesh.
+  /// the nodes is recovered again from the nodes of the finer mesh.
   void place_middle(const Facet<D>& parent, MeshKey nodes, const Vec<D - 1>& xi) {
     if (recovered_) return;
     fine_.given.middle.try_emplace(std::move(nodes), surface_point(body_, parent, xi));
